@@ -51,7 +51,7 @@ static const gb_real gb_arm_leaps[GB_ARM_LEAPS] = {GB_MERGING_APART, R(1e-3), R(
 #define GB_ARM_TOUCHING 32
 #define GB_ARM_FREE SIZE_MAX
 
-/* Maximal number of solutions that are waiting for a curve. The number of values of the scanned joint at first. Between two values, so many times the middle
+/* Maximal number of solutions that are waiting for a curve. The number of values of the grid at first. Between two values, so many times the middle
  * is added where the number of solutions changes, or where solutions are close to each other. */
 #define GB_ARM_SEEDS 256
 #define GB_ARM_SCANNED 16
@@ -64,8 +64,10 @@ static const gb_real gb_arm_leaps[GB_ARM_LEAPS] = {GB_MERGING_APART, R(1e-3), R(
 #define GB_ARM_APPROACH R(0.7)
 #define GB_ARM_SINGULAR R(1e6)
 #define GB_ARM_STRIDE R(0.13)
-/* Maximal number of values of the scanned joint, with those of solutions by Newton's method. */
-#define GB_ARM_GROUPS (GB_ARM_SCANNED + (GB_ARM_SCANNED - 1) * GB_ARM_HALVINGS + GB_ARM_STARTS)
+/* Maximal number of values, with those of solutions by Newton's method. A value that each closed curve passes along which an unlimited joint makes a whole
+ * turn. */
+#define GB_ARM_GROUPS (GB_ARM_SCANNED + (GB_ARM_SCANNED - 1) * GB_ARM_HALVINGS + GB_MOST_SECTIONS + GB_MOST_ARM_JOINTS + GB_ARM_STARTS)
+#define GB_ARM_ANY_VALUE R(1.0)
 /* Solutions for one value are close when no joint differs by more than this. Steps of Newton's method for a root of a cubic. Values of a prismatic joint
  * without limits, relative to the characteristic length. */
 #define GB_ARM_CLOSE R(0.1)

@@ -3,7 +3,7 @@
  *
  * The solutions of a target are curves. Along a curve, joint values stay within limits until a joint reaches one of its limits. These end points are solutions
  * of problems in which one joint is given at a limit (solve_given of gb_redundant). Curves are traced from end point to end point, and each end point belongs
- * to one arc. Curves that touch no limit are found by a search over the values of one joint.
+ * to one arc. Curves that touch no limit are searched at values of some joints.
  *
  * No function allocates, and none has a state. gb_arcs and gb_any_within need about 100 kB of stack besides that of solve_given. Equal targets have bitwise
  * equal results with every compiler, also equal to those of groebot-runtime's `redundant` (see groebot.h for the options of the compiler). Numbers are in
@@ -21,10 +21,11 @@
 #error "redundant arms need double precision"
 #endif
 
-/* Maximal number of joints, numbers of a target, and maximal number of solutions of a problem with one joint given. */
+/* Maximal number of joints, numbers of a target, and maximal numbers of solutions of a problem with one joint given and of sections. */
 #define GB_MOST_ARM_JOINTS 7
 #define GB_ARM_TARGET 12
 #define GB_MOST_MEMBERS 64
+#define GB_MOST_SECTIONS 8
 
 /* The limits of a joint are not in order, or NaN. Other codes below 0 are in groebot.h. */
 #define GB_NOT_LIMITS (-7)
@@ -74,6 +75,14 @@ typedef enum {
     GB_ARM_CONSTANT
 } gb_arm_given;
 
+/* The solutions of a target with a joint, which is GB_ARM_SOLVED, at a value (rad, or the unit of lengths). Where the derivatives of the tip's pose are
+ * dependent, closed curves of solutions begin. On many arms a joint has the same value at all these places. Short closed curves around them then pass this
+ * value, however short they are. */
+typedef struct {
+    size_t joint;
+    gb_real value;
+} gb_arm_section;
+
 /* The data of an arm: axes at zero in the base frame, and limits. The numbers are those of the robot as described, not of its idealisation. */
 typedef struct {
     /* The number of joints, at most GB_MOST_ARM_JOINTS. */
@@ -93,9 +102,13 @@ typedef struct {
     gb_real limits[2 * GB_MOST_ARM_JOINTS];
     /* By joint: which solver exists with this joint given. */
     gb_arm_given given[GB_MOST_ARM_JOINTS];
-    /* The joint whose values are scanned for first solutions and for curves that touch no limit. It is GB_ARM_SOLVED. Best is a joint with a fast solver that
-     * has solutions for most values. */
+    /* The joint whose values are tried for first solutions. It is GB_ARM_SOLVED. Best is a joint with a fast solver that has solutions for most values. */
     size_t scanned;
+    /* The joint whose values are a grid for curves that touch no limit. It is GB_ARM_SOLVED. Best is a joint that moves far along short closed curves. */
+    size_t grid;
+    /* Sections that short closed curves pass. */
+    gb_arm_section sections[GB_MOST_SECTIONS];
+    size_t section_count;
 } gb_arm;
 
 /* A solution of a problem with one joint given. */
@@ -173,7 +186,7 @@ typedef struct {
     bool is_unsure;
     /* The number of closed curves. */
     size_t closed;
-    /* Whether closed curves that reach no limit were searched by a grid of values of the scanned joint only. A closed curve that is narrower than the grid may
+    /* Whether closed curves that reach no limit were searched by a grid and sections only. A closed curve that is narrower than the grid may
      * then be missing. This holds for all targets at present, except where solutions are a surface. */
     bool is_grid_only;
     /* Whether the solutions are a surface. The only arc is then one solution within limits, if one was found. */

@@ -326,7 +326,7 @@ static void set_srs(gb_arm *arm)
     static const double limits[7] = {2.967, 2.094, 2.967, 2.094, 2.967, 2.094, 3.054};
     clear_arm(arm, 7, GB_TASK_POSE, 0.82);
     arm->tip.translation[2] = 1.306;
-    arm->scanned = 2;
+    arm->scanned = arm->grid = 2;
     for (int i = 0; i < 7; i++) {
         arm->directions[i][1] = i % 2 == 0 ? 0.0 : i == 3 ? -1.0 : 1.0;
         arm->directions[i][2] = i % 2 == 0 ? 1.0 : 0.0;

@@ -238,7 +238,7 @@ fn srs() -> Arm {
     let heights = [0.36, 0.36, 0.36, 0.78, 1.18, 1.18, 1.18];
     let limits = [2.967, 2.094, 2.967, 2.094, 2.967, 2.094, 3.054];
     let tip = Rigid { translation: [0.0, 0.0, 1.306], ..Rigid::NONE };
-    let mut arm = Arm { count: 7, length: 0.82, tip, scanned: 2, given: [Given::Solved; 7], ..Arm::NONE };
+    let mut arm = Arm { count: 7, length: 0.82, tip, scanned: 2, grid: 2, given: [Given::Solved; 7], ..Arm::NONE };
     arm.given[3] = Given::Constant;
     for i in 0..7 {
         let along_y = if i == 3 { -1.0 } else { 1.0 };

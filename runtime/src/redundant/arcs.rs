@@ -70,7 +70,7 @@ pub struct Outcome {
     pub is_unsure: bool,
     /// The number of closed curves.
     pub closed: usize,
-    /// Whether closed curves that reach no limit were searched by a grid of values of the scanned joint only. A closed curve that is narrower than the grid
+    /// Whether closed curves that reach no limit were searched by a grid and sections only. A closed curve that is narrower than the grid
     /// may then be missing. This holds for all targets at present, except where solutions are a surface.
     pub is_grid_only: bool,
     /// Whether the solutions are a surface. The only arc is then one solution within limits, if one was found.

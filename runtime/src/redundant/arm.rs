@@ -6,6 +6,9 @@ use crate::solution::Error;
 /// Maximal number of joints.
 pub const MOST_JOINTS: usize = 7;
 
+/// Maximal number of sections.
+pub const MOST_SECTIONS: usize = 8;
+
 /// Joint values: rad, or the unit of lengths. Entries from [`Arm::count`] on are 0.
 pub type Q = [f64; MOST_JOINTS];
 
@@ -104,9 +107,28 @@ pub struct Arm {
     pub limits: Limits,
     /// By joint: which solver exists with this joint given.
     pub given: [Given; MOST_JOINTS],
-    /// The joint whose values are scanned for first solutions and for curves that touch no limit. Its [`Arm::given`] is [`Given::Solved`]. Best is a joint with
-    /// a fast solver that has solutions for most values.
+    /// The joint whose values are tried for first solutions. Its [`Arm::given`] is [`Given::Solved`]. Best is a joint with a fast solver that has solutions for
+    /// most values.
     pub scanned: usize,
+    /// The joint whose values are a grid for curves that touch no limit. Its [`Arm::given`] is [`Given::Solved`]. Best is a joint that moves far along short
+    /// closed curves.
+    pub grid: usize,
+    /// Sections that short closed curves pass; those from `section_count` on are not read.
+    pub sections: [Section; MOST_SECTIONS],
+    /// The number of sections.
+    pub section_count: usize,
+}
+
+/// The solutions of a target with a joint at a value.
+///
+/// Where the derivatives of the tip's pose are dependent, closed curves of solutions begin. On many arms a joint has the same value at all these places. Short
+/// closed curves around them then pass this value, however short they are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Section {
+    /// The joint. Its [`Arm::given`] is [`Given::Solved`].
+    pub joint: usize,
+    /// Its value (rad, or the unit of lengths).
+    pub value: f64,
 }
 
 impl Arm {
@@ -122,6 +144,9 @@ impl Arm {
         limits: [[f64::NEG_INFINITY, f64::INFINITY]; MOST_JOINTS],
         given: [Given::Unsolved; MOST_JOINTS],
         scanned: 0,
+        grid: 0,
+        sections: [Section { joint: 0, value: 0.0 }; MOST_SECTIONS],
+        section_count: 0,
     };
 }
 

@@ -170,7 +170,7 @@ impl Ends {
     }
 
     /// Stores a solution with joints at limits from which the curve leads within limits in both directions.
-    fn touch(&mut self, model: &Model<'_>, x: &Q, tied: u32) {
+    pub fn touch(&mut self, model: &Model<'_>, x: &Q, tied: u32) {
         for k in 0..self.touches {
             if model.are_close(&self.touching[k].0, x, MERGING.joints) {
                 return;

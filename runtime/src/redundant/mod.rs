@@ -2,7 +2,7 @@
 //!
 //! The solutions of a target are curves. Along a curve, joint values stay within limits until a joint reaches one of its limits. These end points are solutions
 //! of at most `2n` problems in which one joint is given at a limit ([`Redundant::solve_given`]). Curves are traced from end point to end point, and each end
-//! point belongs to one arc. Curves that touch no limit are found by a search over the values of one joint.
+//! point belongs to one arc. Curves that touch no limit are searched at values of some joints.
 //!
 //! No function allocates. Equal targets have bitwise equal results on every machine.
 
@@ -32,7 +32,7 @@ mod within;
 
 pub use along::{at, sample, sample_from};
 pub use arcs::{Arc, End, Outcome, arcs};
-pub use arm::{Arm, Given, Limits, MOST_JOINTS, Member, Members, Q, Redundant, Target, Task};
+pub use arm::{Arm, Given, Limits, MOST_JOINTS, MOST_SECTIONS, Member, Members, Q, Redundant, Section, Target, Task};
 pub use best::{Best, Criterion, best, optima};
 pub use given::solve_part;
 pub use solve::SolveRedundant;

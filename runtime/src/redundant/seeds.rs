@@ -1,10 +1,11 @@
-//! Solutions for a grid of values of the scanned joint. Those that are on no traced curve lead to closed curves ([`Seeds`]).
+//! Solutions for values of some joints: a grid, the sections of the arm, and one value of each unlimited joint. Those that are on no traced curve lead to closed
+//! curves ([`Seeds`]).
 
 use core::f64::consts::{PI, TAU};
 
 use super::approach::{STARTS, approach};
-use super::arm::{MOST_JOINTS, Members, Q, Redundant, Target};
-use super::ends::Ends;
+use super::arm::{Given, MOST_JOINTS, MOST_SECTIONS, Members, Q, Redundant, Section, Target};
+use super::ends::{Ends, tied_at};
 use super::model::Model;
 use super::step::{ON, Piece};
 use crate::arithmetic::Arithmetic;
@@ -13,20 +14,23 @@ use crate::tolerances::{ACCEPTANCE, MERGING};
 
 /// Maximal number of solutions that are waiting for a curve.
 pub(super) const MOST_SEEDS: usize = 256;
-/// The number of values of the scanned joint at first.
+/// The number of values of the grid at first.
 const LEVELS: usize = 16;
 /// Between two values, so many times the middle is added where the number of solutions changes, or where solutions are close to each other.
 const HALVINGS: usize = 2;
-/// Maximal number of values of the scanned joint, with those of solutions by Newton's method.
-const MOST_GROUPS: usize = LEVELS + (LEVELS - 1) * HALVINGS + STARTS;
+/// Maximal number of values, with those of solutions by Newton's method.
+const MOST_GROUPS: usize = LEVELS + (LEVELS - 1) * HALVINGS + MOST_SECTIONS + MOST_JOINTS + STARTS;
+/// A value that each closed curve passes along which an unlimited joint makes a whole turn.
+const ANY_VALUE: f64 = 1.0;
 /// Solutions for one value are close when no joint differs by more than this (rad, or relative to the characteristic length).
 const CLOSE: f64 = 0.1;
 /// Steps of Newton's method for a root of a cubic.
 const ROOT_STEPS: usize = 3;
 
-/// Solutions of the list that have one value of the scanned joint: from `first` on, so many.
+/// Solutions of the list that have one value of a joint: from `first` on, so many.
 #[derive(Clone, Copy)]
 struct Group {
+    joint: usize,
     value: f64,
     first: usize,
     count: usize,
@@ -39,9 +43,8 @@ pub(super) struct Seeds {
     added: usize,
     groups: [Group; MOST_GROUPS],
     values: usize,
-    joint: usize,
     pub is_unsure: bool,
-    /// The number of values for which the problem itself has a self-motion, and one of their solutions within limits.
+    /// The number of values of the grid for which the problem itself has a self-motion, and one of their solutions within limits.
     pub surfaces: usize,
     pub surface: Option<Q>,
     members: Members,
@@ -55,9 +58,8 @@ struct Level {
     has_close: bool,
 }
 
-/// The range of values that are scanned.
-pub(super) fn range(model: &Model<'_>) -> [f64; 2] {
-    let joint = model.arm.scanned;
+/// The range of a joint's values that are tried.
+pub(super) fn range(model: &Model<'_>, joint: usize) -> [f64; 2] {
     let [low, high] = model.limits[joint];
     if model.turns[joint] {
         let low = if low.is_finite() { low } else { -PI };
@@ -70,16 +72,15 @@ impl Seeds {
     pub const NONE: Seeds = Seeds {
         list: [[0.0; MOST_JOINTS]; MOST_SEEDS],
         added: 0,
-        groups: [Group { value: 0.0, first: 0, count: 0 }; MOST_GROUPS],
+        groups: [Group { joint: 0, value: 0.0, first: 0, count: 0 }; MOST_GROUPS],
         values: 0,
-        joint: 0,
         is_unsure: false,
         surfaces: 0,
         surface: None,
         members: Members::NONE,
     };
 
-    /// Solves the problems with values of the scanned joint.
+    /// Solves the problems with the values of joints.
     pub fn find(
         &mut self,
         robot: &dyn Redundant,
@@ -87,21 +88,34 @@ impl Seeds {
         target: &Target,
         ends: &mut Ends,
     ) -> Result<(), Error> {
-        self.joint = model.arm.scanned;
-        let [low, high] = range(model);
+        let joint = model.arm.grid;
+        let [low, high] = range(model, joint);
         let width = (high - low) / LEVELS as f64;
         let mut before: Option<Level> = None;
         for k in 0..LEVELS {
-            let level = self.solve(robot, model, target, low + (k as f64 + 0.5) * width, ends)?;
+            let level =
+                self.solve(robot, model, target, Section { joint, value: low + (k as f64 + 0.5) * width }, ends)?;
             if let Some(before) = before {
                 self.between(robot, model, target, [before, level], ends)?;
             }
             before = Some(level);
         }
+        for section in &model.arm.sections[..model.arm.section_count] {
+            let Section { joint, value } = *section;
+            let value = value / model.units[joint];
+            if model.turns[joint] || value >= model.limits[joint][0] && value <= model.limits[joint][1] {
+                self.solve(robot, model, target, Section { joint, value }, ends)?;
+            }
+        }
+        for joint in 0..model.count {
+            if model.turns[joint] && model.arm.given[joint] == Given::Solved && joint != model.arm.grid {
+                self.solve(robot, model, target, Section { joint, value: ANY_VALUE }, ends)?;
+            }
+        }
         Ok(())
     }
 
-    /// Searches solutions by Newton's method, where there is none for any value of the scanned joint.
+    /// Searches solutions by Newton's method, where there is none for any value of a joint.
     #[cold]
     pub fn approach(&mut self, model: &Model<'_>, ends: &mut Ends) {
         for number in 0..STARTS {
@@ -110,7 +124,8 @@ impl Seeds {
             ends.beyond.pass(model, &x, beyond);
             if beyond == 0 {
                 self.list[self.added] = x;
-                self.groups[self.values] = Group { value: x[self.joint], first: self.added, count: 1 };
+                let joint = model.arm.grid;
+                self.groups[self.values] = Group { joint, value: x[joint], first: self.added, count: 1 };
                 self.added += 1;
                 self.values += 1;
             }
@@ -134,7 +149,8 @@ impl Seeds {
             if !(differ || low.has_close && high.has_close) {
                 return Ok(());
             }
-            let middle = self.solve(robot, model, target, 0.5 * (low.value + high.value), ends)?;
+            let section = Section { joint: model.arm.grid, value: 0.5 * (low.value + high.value) };
+            let middle = self.solve(robot, model, target, section, ends)?;
             if middle.solutions == low.solutions {
                 low = middle;
             } else {
@@ -144,16 +160,18 @@ impl Seeds {
         Ok(())
     }
 
+    /// Adds the solutions with a joint at a scaled value.
     fn solve(
         &mut self,
         robot: &dyn Redundant,
         model: &Model<'_>,
         target: &Target,
-        value: f64,
+        Section { joint, value }: Section,
         ends: &mut Ends,
     ) -> Result<Level, Error> {
+        let is_grid = joint == model.arm.grid;
         self.members.clear();
-        robot.solve_given(target, self.joint, value * model.units[self.joint], &mut self.members)?;
+        robot.solve_given(target, joint, value * model.units[joint], &mut self.members)?;
         self.is_unsure |= self.members.is_short();
         let first = self.added;
         let (mut is_surface, mut solutions) = (false, 0);
@@ -162,16 +180,18 @@ impl Seeds {
             self.is_unsure |= !member.settled;
             solutions += 1;
             let mut x = model.scaled(&member.q);
-            x[self.joint] = value;
+            x[joint] = value;
             let beyond = model.lift(&mut x);
             ends.beyond.pass(model, &x, beyond);
+            is_surface |= is_grid && member.free != 0;
             if beyond != 0 {
-                is_surface |= member.free != 0;
                 continue;
             }
-            if member.free != 0 {
-                is_surface = true;
+            if member.free != 0 && is_grid {
                 self.surface = Some(x);
+            } else if member.free != 0 {
+                // Along a curve through this solution, the joint keeps its value.
+                ends.touch(model, &x, tied_at(model, &x));
             } else if self.added < MOST_SEEDS {
                 self.list[self.added] = x;
                 self.added += 1;
@@ -179,7 +199,7 @@ impl Seeds {
                 self.is_unsure = true;
             }
         }
-        self.groups[self.values] = Group { value, first, count: self.added - first };
+        self.groups[self.values] = Group { joint, value, first, count: self.added - first };
         self.values += 1;
         self.surfaces += usize::from(is_surface);
         Ok(Level { value, solutions, has_close: self.has_close(model, first) })
@@ -199,14 +219,14 @@ impl Seeds {
 
     /// Removes the solutions on a piece of a curve.
     pub fn pass(&mut self, model: &Model<'_>, piece: &Piece) {
-        let (from, to) = (piece.from.x[self.joint], piece.to.x[self.joint]);
-        let (least, greatest) = (f64::min(from, to) - ACCEPTANCE.input, f64::max(from, to) + ACCEPTANCE.input);
         for number in 0..self.values {
-            if self.groups[number].count == 0 {
+            let Group { joint, mut value, count, .. } = self.groups[number];
+            if count == 0 {
                 continue;
             }
-            let mut value = self.groups[number].value;
-            if model.turns[self.joint] {
+            let (from, to) = (piece.from.x[joint], piece.to.x[joint]);
+            let (least, greatest) = (f64::min(from, to) - ACCEPTANCE.input, f64::max(from, to) + ACCEPTANCE.input);
+            if model.turns[joint] {
                 value += TAU * Arithmetic::ceil((least - value) / TAU);
             }
             if value >= least && value <= greatest {
@@ -217,8 +237,8 @@ impl Seeds {
 
     /// Removes the solutions of a group on a piece of a curve.
     fn pass_group(&mut self, model: &Model<'_>, piece: &Piece, value: f64, number: usize) {
-        let Group { first, mut count, .. } = self.groups[number];
-        let x = self.on(piece, value);
+        let Group { joint, first, mut count, .. } = self.groups[number];
+        let x = on(piece, joint, value);
         let mut k = first;
         while k < first + count {
             if model.are_close(&x, &self.list[k], ON * piece.length + MERGING.joints) {
@@ -248,19 +268,19 @@ impl Seeds {
     pub fn all(&self) -> impl Iterator<Item = &Q> {
         self.groups[..self.values].iter().flat_map(|group| &self.list[group.first..group.first + group.count])
     }
+}
 
-    /// The point of the piece where the scanned joint has a certain value.
-    fn on(&self, piece: &Piece, value: f64) -> Q {
-        let (from, to) = (piece.from.x[self.joint], piece.to.x[self.joint]);
-        let mut share = if from == to { 0.5 } else { (value - from) / (to - from) };
-        let [c, b, a] = piece.cubic(self.joint);
-        for _ in 0..ROOT_STEPS {
-            let slope = c + share * (2.0 * b + share * 3.0 * a);
-            let miss = from + share * (c + share * (b + share * a)) - value;
-            if slope != 0.0 {
-                share = f64::min(f64::max(share - miss / slope, 0.0), 1.0);
-            }
+/// The point of the piece where a joint has a certain value.
+fn on(piece: &Piece, joint: usize, value: f64) -> Q {
+    let (from, to) = (piece.from.x[joint], piece.to.x[joint]);
+    let mut share = if from == to { 0.5 } else { (value - from) / (to - from) };
+    let [c, b, a] = piece.cubic(joint);
+    for _ in 0..ROOT_STEPS {
+        let slope = c + share * (2.0 * b + share * 3.0 * a);
+        let miss = from + share * (c + share * (b + share * a)) - value;
+        if slope != 0.0 {
+            share = f64::min(f64::max(share - miss / slope, 0.0), 1.0);
         }
-        piece.at(share)
     }
+    piece.at(share)
 }

@@ -44,7 +44,7 @@ pub fn any_within(robot: &dyn Redundant, target: &Target, limits: &Limits) -> Re
     let model = Model::new(arm, target, limits)?;
     let mut members = Members::NONE;
     let mut beyond = Beyond::NONE;
-    let [low, high] = range(&model);
+    let [low, high] = range(&model, arm.scanned);
     for share in TRIED {
         let value = low + share * (high - low);
         if let Some(q) = first(robot, &model, target, arm.scanned, value, &mut members, &mut beyond)? {

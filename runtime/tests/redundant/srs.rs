@@ -29,6 +29,7 @@ impl Srs {
             tip: Rigid { translation: [0.0, 0.0, 1.306], ..Rigid::NONE },
             given: [Given::Solved; 7],
             scanned: 2,
+            grid: 2,
             ..Arm::NONE
         };
         arm.given[3] = Given::Constant;

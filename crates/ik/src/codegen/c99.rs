@@ -63,7 +63,21 @@ pub(super) fn outline(program: &Program) -> Outline {
 
 /// The data of a redundant arm as an initialiser.
 fn arm(arm: &Arm) -> String {
-    let Arm { count, directions, points, slides, tip, task, length, limits, given, scanned } = arm;
+    let Arm {
+        count,
+        directions,
+        points,
+        slides,
+        tip,
+        task,
+        length,
+        limits,
+        given,
+        scanned,
+        grid,
+        sections,
+        section_count,
+    } = arm;
     let (kind, direction, axis, coordinates) = match task {
         Task::Pose => ("POSE", [0.0; 3], 0, [0; 2]),
         Task::Position => ("POSITION", [0.0; 3], 0, [0; 2]),
@@ -77,6 +91,7 @@ fn arm(arm: &Arm) -> String {
         other => unreachable!("a redundant arm has a task of the run time, not {other:?}"),
     };
     let limits = braces(&limits.as_flattened()).replace("inf", "INFINITY");
+    let sections = sections.map(|section| format!("{{{}, {:?}}}", section.joint, section.value)).join(", ");
     let given = given.map(|given| match given {
         RunTimeGiven::Solved => "GB_ARM_SOLVED",
         RunTimeGiven::Constant => "GB_ARM_CONSTANT",
@@ -84,7 +99,7 @@ fn arm(arm: &Arm) -> String {
     });
     format!(
         "{{\n    {count},\n    {},\n    {},\n    {slides},\n    {},\n    {{GB_TASK_{kind}, {}, {axis}, {{{}, {}}}}},\n    {length:?},\n    \
-         {limits},\n    {{{}}},\n    {scanned},\n}}",
+         {limits},\n    {{{}}},\n    {scanned},\n    {grid},\n    {{{sections}}},\n    {section_count},\n}}",
         braces(directions),
         braces(points),
         rigid(tip),

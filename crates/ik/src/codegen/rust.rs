@@ -37,12 +37,28 @@ pub fn emit(program: &Program) -> String {
 
 /// The data of a redundant arm as an expression.
 fn arm(arm: &Arm) -> String {
-    let Arm { count, directions, points, slides, tip, task, length, limits, given, scanned } = arm;
+    let Arm {
+        count,
+        directions,
+        points,
+        slides,
+        tip,
+        task,
+        length,
+        limits,
+        given,
+        scanned,
+        grid,
+        sections,
+        section_count,
+    } = arm;
     let limits = format!("{limits:?}").replace("inf", "f64::INFINITY");
     let given = given.map(|given| format!("redundant::Given::{given:?}")).join(", ");
+    let sections = sections.map(|section| format!("redundant::{section:?}")).join(", ");
     format!(
         "Arm {{\n    count: {count},\n    directions: {directions:?},\n    points: {points:?},\n    slides: {slides:?},\n    tip: {tip:?},\n    \
-         task: Task::{task:?},\n    length: {length:?},\n    limits: {limits},\n    given: [{given}],\n    scanned: {scanned},\n}}"
+         task: Task::{task:?},\n    length: {length:?},\n    limits: {limits},\n    given: [{given}],\n    scanned: {scanned},\n    grid: {grid},\n    \
+         sections: [{sections}],\n    section_count: {section_count},\n}}"
     )
 }
 

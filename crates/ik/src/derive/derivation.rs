@@ -117,7 +117,7 @@ impl Derivation {
     }
 
     fn with_redundancy(mut self, problem: &ChainProblem, redundancy: RedundantChain) -> Self {
-        self.program.redundancy = Some(Box::new(redundant::data(problem, &redundancy)));
+        self.program.redundancy = Some(Box::new(redundant::data(problem, &self, &redundancy)));
         self.redundancy = Some(Box::new(redundancy));
         self
     }

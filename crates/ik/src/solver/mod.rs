@@ -41,8 +41,8 @@ pub use placed::{PlacedSolver, Placement, TaskPlacement};
 pub use prepared::{Batch, Nearest, Solved, Solver};
 pub(crate) use program::square;
 pub use program::{
-    Block, Case, Checks, Condition, Described, Guard, Input, MOST_SCANNED, Pivot, Preference, Program, Redundancy,
-    RedundantPart, Short, Step,
+    Block, Case, Checks, ClosedSearch, Condition, Described, Guard, Input, MOST_SCANNED, MOST_SECTIONS, Pivot,
+    Preference, Program, Redundancy, RedundantPart, Section, Short, Step,
 };
 pub use rule::{Following, ParameterRule, Rule};
 pub use tips::{GivenJoint, TipTask};

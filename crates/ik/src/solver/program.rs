@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 mod redundancy;
 
-pub use redundancy::{MOST_SCANNED, Redundancy, RedundantPart};
+pub use redundancy::{ClosedSearch, MOST_SCANNED, MOST_SECTIONS, Redundancy, RedundantPart, Section};
 
 use super::about::About;
 use super::eigenvalue::SixAxes;

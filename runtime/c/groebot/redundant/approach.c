@@ -64,7 +64,7 @@ static bool gb_arm_approach(const gb_arm_model *model, int number, gb_real *x)
     return false;
 }
 
-/* Searches solutions by Newton's method, where there is none for any value of the scanned joint. */
+/* Searches solutions by Newton's method, where there is none for any value of a joint. */
 GB_COLD static void gb_arm_approach_all(gb_arm_seeds *seeds, const gb_arm_model *model, gb_arm_beyond *beyond)
 {
     for (int number = 0; number < GB_ARM_STARTS; number++) {
@@ -76,7 +76,8 @@ GB_COLD static void gb_arm_approach_all(gb_arm_seeds *seeds, const gb_arm_model 
         gb_arm_pass_beyond(beyond, model, x, joints);
         if (joints == 0) {
             gb_arm_group *group = &seeds->groups[seeds->values++];
-            group->value = x[seeds->joint];
+            group->joint = model->arm->grid;
+            group->value = x[group->joint];
             group->first = seeds->added++;
             group->count = 1;
         }

@@ -183,7 +183,7 @@ static gb_arm_sample gb_arm_better(gb_arm_sample a, gb_arm_sample b)
 }
 
 /* The optimum between two lengths, both ends included, by golden section search (J. Kiefer, Proc. AMS 4 (1953) 502-506). */
-static gb_arm_sample gb_arm_section(const gb_arm_sorted *list, const gb_arm_stretch *stretch, gb_real low, gb_real high, int count)
+static gb_arm_sample gb_arm_golden(const gb_arm_sorted *list, const gb_arm_stretch *stretch, gb_real low, gb_real high, int count)
 {
     const gb_arm_sample first = gb_arm_sample_at(list, stretch, low), last = gb_arm_sample_at(list, stretch, high);
     gb_arm_sample a = gb_arm_sample_at(list, stretch, high - GB_ARM_GOLDEN * (high - low));
@@ -207,7 +207,7 @@ static gb_arm_sample gb_arm_section(const gb_arm_sorted *list, const gb_arm_stre
 static gb_real gb_arm_optimum(const gb_arm_sorted *list, const gb_arm_stretch *stretch, gb_real low, gb_real high, gb_real *x)
 {
     const gb_real width = GB_ARM_CLOSE_OPTIMUM * (high - low);
-    gb_real s = gb_arm_section(list, stretch, low, high, GB_ARM_COARSE).s;
+    gb_real s = gb_arm_golden(list, stretch, low, high, GB_ARM_COARSE).s;
     for (int k = 0; k < GB_ARM_MOVES; k++) {
         const gb_real from = gb_arm_max(low, s - width), to = gb_arm_min(high, s + width);
         const gb_arm_point first = gb_arm_stretch_point(stretch, list->model, from), second = gb_arm_stretch_point(stretch, list->model, to);
@@ -217,7 +217,7 @@ static gb_real gb_arm_optimum(const gb_arm_sorted *list, const gb_arm_stretch *s
         close.before[0] = close.before[1] = from;
         close.is_exact = false;
         const gb_real last = from + close.pieces[0].length;
-        s = gb_arm_section(list, &close, from, last, GB_ARM_FINE).s;
+        s = gb_arm_golden(list, &close, from, last, GB_ARM_FINE).s;
         gb_arm_point top = gb_arm_stretch_point(&close, list->model, s);
         const gb_arm_piece *piece = gb_arm_stretch_piece(&close, s, &share);
         gb_arm_piece_at(piece, share, x);
@@ -225,7 +225,7 @@ static gb_real gb_arm_optimum(const gb_arm_sorted *list, const gb_arm_stretch *s
             /* Next to a singular point the curve is no cubic. */
             close = *stretch;
             close.is_exact = true;
-            s = gb_arm_section(list, &close, low, high, GB_ARM_FINE).s;
+            s = gb_arm_golden(list, &close, low, high, GB_ARM_FINE).s;
             top = gb_arm_stretch_point(stretch, list->model, s);
             gb_arm_copy(top.x, x);
             break;

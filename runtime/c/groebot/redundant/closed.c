@@ -90,7 +90,7 @@ static int gb_arm_find_arcs(const gb_redundant *robot, const gb_real *target, gb
     ends.beyond = gb_arm_no_beyond;
     seeds.added = seeds.values = seeds.surfaces = 0;
     seeds.is_unsure = seeds.has_surface = false;
-    const gb_arm_scan scan = {robot, model, target, &ends.beyond};
+    const gb_arm_scan scan = {robot, model, target, &ends.beyond, &ends};
     const gb_arm_search search = {model, &ends, &seeds};
     int code = gb_arm_find_ends(&ends, robot, model, target);
     if (code == 0) {

@@ -1,7 +1,8 @@
-/* Solutions for a grid of values of the scanned joint. Those that are on no traced curve lead to closed curves: see seeds.rs */
+/* Solutions for values of some joints. Those that are on no traced curve lead to closed curves: see seeds.rs */
 
-/* Solutions of the list that have one value of the scanned joint: from `first` on, so many. */
+/* Solutions of the list that have one value of a joint: from `first` on, so many. */
 typedef struct {
+    size_t joint;
     gb_real value;
     size_t first;
     size_t count;
@@ -14,9 +15,8 @@ typedef struct {
     size_t added;
     gb_arm_group groups[GB_ARM_GROUPS];
     size_t values;
-    size_t joint;
     bool is_unsure;
-    /* The number of values for which the problem itself has a self-motion, and one of their solutions within limits. */
+    /* The number of values of the grid for which the problem itself has a self-motion, and one of their solutions within limits. */
     size_t surfaces;
     bool has_surface;
     gb_real surface[GB_MOST_ARM_JOINTS];
@@ -30,18 +30,18 @@ typedef struct {
     bool has_close;
 } gb_arm_level;
 
-/* The problem that is scanned, and where the best reason is kept. */
+/* The problem whose solutions are searched, where the best reason is kept, and where solutions on curves along which a joint keeps its value are added. */
 typedef struct {
     const gb_redundant *robot;
     const gb_arm_model *model;
     const gb_real *target;
     gb_arm_beyond *beyond;
+    gb_arm_ends *ends;
 } gb_arm_scan;
 
-/* The range of values that are scanned. */
-static void gb_arm_range(const gb_arm_model *model, gb_real *range)
+/* The range of a joint's values that are tried. */
+static void gb_arm_range(const gb_arm_model *model, size_t joint, gb_real *range)
 {
-    const size_t joint = model->arm->scanned;
     const gb_real low = model->limits[joint][0], high = model->limits[joint][1];
     if (model->turns[joint]) {
         range[0] = gb_magnitude(low) <= GB_GREATEST ? low : -GB_PI;
@@ -75,14 +75,15 @@ static void gb_arm_add_seed(gb_arm_seeds *seeds, const gb_real *x)
     }
 }
 
-/* Adds the solutions for a value of the scanned joint. Returns 0 or a code below 0. */
-static int gb_arm_add_level(gb_arm_seeds *seeds, const gb_arm_scan *scan, gb_real value, gb_arm_level *level)
+/* Adds the solutions with a joint at a scaled value. Returns 0 or a code below 0. */
+static int gb_arm_add_level(gb_arm_seeds *seeds, const gb_arm_scan *scan, size_t joint, gb_real value, gb_arm_level *level)
 {
     const gb_arm_model *model = scan->model;
+    const bool is_grid = joint == model->arm->grid;
     const gb_arm_members *members = &seeds->members;
     const size_t first = seeds->added;
     bool is_surface = false;
-    const int code = gb_arm_solve(scan->robot, scan->target, seeds->joint, value * model->units[seeds->joint], &seeds->members);
+    const int code = gb_arm_solve(scan->robot, scan->target, joint, value * model->units[joint], &seeds->members);
     if (code < 0) {
         return code;
     }
@@ -92,18 +93,22 @@ static int gb_arm_add_level(gb_arm_seeds *seeds, const gb_arm_scan *scan, gb_rea
         gb_real x[GB_MOST_ARM_JOINTS];
         seeds->is_unsure = seeds->is_unsure || !member->settled;
         gb_arm_scaled(model, member->q, x);
-        x[seeds->joint] = value;
+        x[joint] = value;
         const uint32_t beyond = gb_arm_lift(model, x);
         gb_arm_pass_beyond(scan->beyond, model, x, beyond);
-        is_surface = is_surface || member->free != 0;
-        if (beyond == 0 && member->free != 0) {
+        is_surface = is_surface || (is_grid && member->free != 0);
+        if (beyond == 0 && member->free != 0 && is_grid) {
             seeds->has_surface = true;
             gb_arm_copy(x, seeds->surface);
+        } else if (beyond == 0 && member->free != 0) {
+            /* Along a curve through this solution, the joint keeps its value. */
+            gb_arm_add_touch(scan->ends, model, x, gb_arm_tied_at(model, x));
         } else if (beyond == 0) {
             gb_arm_add_seed(seeds, x);
         }
     }
     gb_arm_group *group = &seeds->groups[seeds->values++];
+    group->joint = joint;
     group->value = value;
     group->first = first;
     group->count = seeds->added - first;
@@ -123,7 +128,7 @@ static int gb_arm_between(gb_arm_seeds *seeds, const gb_arm_scan *scan, gb_arm_l
         if (seeds->added + GB_MOST_MEMBERS > GB_ARM_SEEDS || !(differ || (low.has_close && high.has_close))) {
             return 0;
         }
-        const int code = gb_arm_add_level(seeds, scan, R(0.5) * (low.value + high.value), &middle);
+        const int code = gb_arm_add_level(seeds, scan, scan->model->arm->grid, R(0.5) * (low.value + high.value), &middle);
         if (code < 0) {
             return code;
         }
@@ -136,16 +141,38 @@ static int gb_arm_between(gb_arm_seeds *seeds, const gb_arm_scan *scan, gb_arm_l
     return 0;
 }
 
-/* Solves the problems with values of the scanned joint. Returns 0 or a code below 0. */
+/* Solves the problems with the sections, and with one value of each unlimited joint. Returns 0 or a code below 0. */
+static int gb_arm_find_sections(gb_arm_seeds *seeds, const gb_arm_scan *scan)
+{
+    const gb_arm_model *model = scan->model;
+    const gb_arm *arm = model->arm;
+    gb_arm_level level;
+    int code = 0;
+    for (size_t k = 0; k < arm->section_count && code == 0; k++) {
+        const size_t joint = arm->sections[k].joint;
+        const gb_real value = arm->sections[k].value / model->units[joint];
+        if (model->turns[joint] || (value >= model->limits[joint][0] && value <= model->limits[joint][1])) {
+            code = gb_arm_add_level(seeds, scan, joint, value, &level);
+        }
+    }
+    for (size_t joint = 0; joint < model->count && code == 0; joint++) {
+        if (model->turns[joint] && arm->given[joint] == GB_ARM_SOLVED && joint != arm->grid) {
+            code = gb_arm_add_level(seeds, scan, joint, GB_ARM_ANY_VALUE, &level);
+        }
+    }
+    return code;
+}
+
+/* Solves the problems with the values of joints. Returns 0 or a code below 0. */
 static int gb_arm_find_seeds(gb_arm_seeds *seeds, const gb_arm_scan *scan)
 {
+    const size_t joint = scan->model->arm->grid;
     gb_real range[2];
     gb_arm_level before = {R(0.0), 0, false}, level = before;
-    seeds->joint = scan->model->arm->scanned;
-    gb_arm_range(scan->model, range);
+    gb_arm_range(scan->model, joint, range);
     const gb_real width = (range[1] - range[0]) / (gb_real)GB_ARM_SCANNED;
     for (int k = 0; k < GB_ARM_SCANNED; k++) {
-        int code = gb_arm_add_level(seeds, scan, range[0] + ((gb_real)k + R(0.5)) * width, &level);
+        int code = gb_arm_add_level(seeds, scan, joint, range[0] + ((gb_real)k + R(0.5)) * width, &level);
         if (code == 0 && k > 0) {
             code = gb_arm_between(seeds, scan, before, level);
         }
@@ -154,15 +181,15 @@ static int gb_arm_find_seeds(gb_arm_seeds *seeds, const gb_arm_scan *scan)
         }
         before = level;
     }
-    return 0;
+    return gb_arm_find_sections(seeds, scan);
 }
 
-/* The point of the piece where the scanned joint has a certain value. */
-static void gb_arm_seed_on(const gb_arm_seeds *seeds, const gb_arm_piece *piece, gb_real value, gb_real *x)
+/* The point of the piece where a joint has a certain value. */
+static void gb_arm_seed_on(const gb_arm_piece *piece, size_t joint, gb_real value, gb_real *x)
 {
-    const gb_real from = piece->from.x[seeds->joint], to = piece->to.x[seeds->joint];
+    const gb_real from = piece->from.x[joint], to = piece->to.x[joint];
     gb_real share = from == to ? R(0.5) : (value - from) / (to - from), c[3];
-    gb_arm_cubic(piece, seeds->joint, c);
+    gb_arm_cubic(piece, joint, c);
     for (int k = 0; k < GB_ARM_SEED_STEPS; k++) {
         const gb_real slope = c[0] + share * (R(2.0) * c[1] + share * R(3.0) * c[2]);
         const gb_real miss = from + share * (c[0] + share * (c[1] + share * c[2])) - value;
@@ -178,7 +205,7 @@ static void gb_arm_pass_group(gb_arm_seeds *seeds, const gb_arm_model *model, co
 {
     gb_real x[GB_MOST_ARM_JOINTS];
     size_t k = group->first;
-    gb_arm_seed_on(seeds, piece, value, x);
+    gb_arm_seed_on(piece, group->joint, value, x);
     while (k < group->first + group->count) {
         if (gb_arm_are_close(model, x, seeds->list[k], GB_ARM_ON * piece->length + GB_MERGING_JOINTS)) {
             group->count--;
@@ -192,14 +219,15 @@ static void gb_arm_pass_group(gb_arm_seeds *seeds, const gb_arm_model *model, co
 /* Removes the solutions on a piece of a curve. */
 static void gb_arm_pass_seeds(gb_arm_seeds *seeds, const gb_arm_model *model, const gb_arm_piece *piece)
 {
-    const gb_real from = piece->from.x[seeds->joint], to = piece->to.x[seeds->joint];
-    const gb_real least = gb_arm_min(from, to) - GB_ACCEPTANCE_INPUT, greatest = gb_arm_max(from, to) + GB_ACCEPTANCE_INPUT;
     for (size_t number = 0; number < seeds->values; number++) {
+        const size_t joint = seeds->groups[number].joint;
         gb_real value = seeds->groups[number].value;
         if (seeds->groups[number].count == 0) {
             continue;
         }
-        if (model->turns[seeds->joint]) {
+        const gb_real from = piece->from.x[joint], to = piece->to.x[joint];
+        const gb_real least = gb_arm_min(from, to) - GB_ACCEPTANCE_INPUT, greatest = gb_arm_max(from, to) + GB_ACCEPTANCE_INPUT;
+        if (model->turns[joint]) {
             value += GB_TAU * gb_ceiling((least - value) / GB_TAU);
         }
         if (value >= least && value <= greatest) {

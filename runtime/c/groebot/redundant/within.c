@@ -90,13 +90,13 @@ GB_LINKAGE int gb_any_within(const gb_redundant *robot, const gb_real *target, c
     gb_arm_beyond beyond = gb_arm_no_beyond;
     gb_within found;
     gb_real range[2];
-    const gb_arm_scan scan = {robot, &model, target, &beyond};
+    const gb_arm_scan scan = {robot, &model, target, &beyond, NULL};
     int code = gb_arm_set_model(&model, robot->arm, target, limits);
     if (code < 0) {
         return code;
     }
     memset(&found, 0, sizeof found);
-    gb_arm_range(&model, range);
+    gb_arm_range(&model, robot->arm->scanned, range);
     code = gb_arm_try(&scan, range, found.q);
     found.is_found = found.is_reachable = code > 0;
     if (code == 0) {

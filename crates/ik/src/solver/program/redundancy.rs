@@ -9,6 +9,8 @@ use groebot_runtime::tolerances::ACCEPTANCE;
 
 /// The maximum number of scanned joints.
 pub const MOST_SCANNED: usize = 3;
+/// The maximum number of sections.
+pub use groebot_runtime::redundant::MOST_SECTIONS;
 
 /// The programs of a redundant chain, one for each joint as the given one, and its axes as described. Each part has the values of scanned joints as inputs, too.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -24,6 +26,31 @@ pub struct Redundancy {
     pub limits: Vec<Option<[f64; 2]>>,
     /// By joint, the program with this joint given.
     pub parts: Vec<RedundantPart>,
+    /// Where closed curves of solutions are searched. Missing with scanned joints, and in older files: then at values of the main joint.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub closed: Option<ClosedSearch>,
+}
+
+/// Where closed curves of solutions are searched that reach no limit.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[non_exhaustive]
+pub struct ClosedSearch {
+    /// The joint whose values are a grid.
+    pub grid: usize,
+    /// Values of joints that short closed curves pass, at most [`MOST_SECTIONS`].
+    pub sections: Vec<Section>,
+}
+
+/// A value of a joint: rad, or the length unit.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[non_exhaustive]
+pub struct Section {
+    /// The index of the joint.
+    pub joint: usize,
+    /// Its value.
+    pub value: f64,
 }
 
 /// The program of a redundant chain with one joint given.
@@ -71,6 +98,14 @@ impl Redundancy {
         ensure(is_rotation, "the rotation of the tip is not a rotation")?;
         let are_ordered = self.limits.iter().flatten().all(|[low, high]| low <= high);
         ensure(are_ordered, "limits: the least, then the greatest value")?;
+        if let Some(closed) = &self.closed {
+            let is_solved =
+                |joint: usize| matches!(self.parts.get(joint), Some(RedundantPart::Main | RedundantPart::Program(_)));
+            let is_known = is_solved(closed.grid) && closed.sections.iter().all(|section| is_solved(section.joint));
+            ensure(is_known && scanned.is_empty(), "closed curves are searched at values of joints with a program")?;
+            let is_finite = closed.sections.iter().all(|section| section.value.is_finite());
+            ensure(is_finite && closed.sections.len() <= MOST_SECTIONS, "at most eight sections with finite values")?;
+        }
         self.parts.iter().enumerate().try_for_each(|(joint, part)| match part {
             RedundantPart::Main => ensure(self.gives(main, joint), "the main part is not that of the given joint"),
             RedundantPart::Program(other) => {

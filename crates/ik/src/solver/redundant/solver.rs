@@ -3,7 +3,7 @@
 use std::sync;
 
 use groebot_runtime as runtime;
-use groebot_runtime::redundant::{Arm, Given, Members, Redundant, Target, Task};
+use groebot_runtime::redundant::{self, Arm, Given, Members, Redundant, Target, Task};
 use groebot_runtime::six_axes::Rigid;
 use nalgebra::{Matrix3, Point3, UnitQuaternion, Vector3};
 use num_traits::ToPrimitive;
@@ -152,6 +152,14 @@ fn arm_at(program: &Program, redundancy: &Redundancy, values: &[f64]) -> Arm {
         scanned: own.iter().position(is_main).unwrap_or(0),
         ..Arm::NONE
     };
+    arm.grid = arm.scanned;
+    if let Some(closed) = &redundancy.closed {
+        arm.grid = closed.grid;
+        arm.section_count = closed.sections.len();
+        for (place, section) in arm.sections.iter_mut().zip(&closed.sections) {
+            *place = redundant::Section { joint: section.joint, value: section.value };
+        }
+    }
     let (limits, mut moved, mut k) = (redundancy.limit_pairs(), Pose::identity(), 0);
     for (place, line) in redundancy.lines.iter().enumerate() {
         let (direction, point) = (Vector3::from(line.direction), Point3::from(line.point));

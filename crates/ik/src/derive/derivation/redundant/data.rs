@@ -2,15 +2,16 @@
 
 use num_traits::ToPrimitive;
 
+use super::sections::closed_search;
 use super::{Part, RedundantChain};
-use crate::derive::ChainProblem;
+use crate::derive::{AnyView, ChainProblem, Derivation};
 use crate::solver::eigenvalue::Line;
 use crate::solver::{Redundancy, RedundantPart};
 use groebot_robot::kinematics::Chain;
 use groebot_robot::spatial::Screw;
 
-/// The data of `redundancy`, for the chain of `problem` as described.
-pub(in crate::derive) fn data(problem: &ChainProblem, redundancy: &RedundantChain) -> Redundancy {
+/// The data of `redundancy` with the main derivation `main`, for the chain of `problem` as described.
+pub(in crate::derive) fn data(problem: &ChainProblem, main: &Derivation, redundancy: &RedundantChain) -> Redundancy {
     let chain = problem.measured();
     let pose = chain.base_from_tip();
     let rotation = pose.rotation.to_rotation_matrix();
@@ -21,7 +22,12 @@ pub(in crate::derive) fn data(problem: &ChainProblem, redundancy: &RedundantChai
         Part::Scanned => RedundantPart::Scanned,
         Part::Unsolved(reason) => RedundantPart::Unsolved(reason.clone()),
     };
+    let is_slow = |joint: usize| {
+        let derivation = if let Part::Derived(other) = &redundancy.parts[joint] { other } else { main };
+        matches!(derivation.view(), AnyView::Eigenvalue(_))
+    };
     Redundancy {
+        closed: closed_search(&problem.chain, redundancy, is_slow),
         lines: (0..chain.joints().len()).map(|joint| line(chain, joint)).collect(),
         position: pose.translation.vector.into(),
         rotation: std::array::from_fn(|i| std::array::from_fn(|j| rotation[(i, j)])),

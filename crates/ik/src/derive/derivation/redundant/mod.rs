@@ -10,6 +10,7 @@
 mod certificate;
 mod data;
 mod report;
+mod sections;
 
 pub(in crate::derive) use certificate::{certificate, is_certificate, prove};
 pub(in crate::derive) use data::data;

@@ -20,6 +20,26 @@ pub(in crate::derive) fn section(page: &mut Document, derivation: &Derivation, r
          With each joint given:",
     );
     page.items(items(derivation, redundancy));
+    if let Some(line) = closed(derivation) {
+        page.paragraph(line);
+    }
+}
+
+/// Where curves that touch no limit are searched.
+fn closed(derivation: &Derivation) -> Option<Line> {
+    let program = derivation.program();
+    let closed = program.redundancy.as_ref()?.closed.as_ref()?;
+    let name = |line: Line, joint: usize| line.name(&program.joints[joint].name);
+    let line = name(Line::of("Curves that touch no limit are searched at values of "), closed.grid);
+    Some(
+        closed
+            .sections
+            .iter()
+            .fold(line, |line, section| {
+                name(line.words(", and at "), section.joint).words(&format!(" = {}", section.value))
+            })
+            .words("."),
+    )
 }
 
 /// By joint, the solver with this joint given.
