@@ -3,7 +3,7 @@
 use std::slice;
 
 use groebot::solver::Program;
-use groebot::solver::redundant::{Arc, ArmTarget, Criterion, RedundantSolver};
+use groebot::solver::redundant::{Arc, ArcEnd, ArmTarget, Criterion, RedundantSolver};
 use groebot::{Error, ErrorKind, Result};
 use serde_json::{Value, json};
 
@@ -31,8 +31,9 @@ impl Arm {
         let described = |arc: &Arc| {
             let nearest = self.solver.best_on(&target, &limits, slice::from_ref(arc), &criterion)?;
             let (s, q) = nearest.map_or_else(|| (0.0, arc.start.q.clone()), |best| (best.s, best.q));
+            let end = |end: &ArcEnd| json!({ "q": end.q, "limit": end.limit_text(&names) });
             Ok(json!({
-                "ends": [&arc.start, &arc.end].map(|end| json!({ "q": end.q, "limit": end.limit_text(&names) })),
+                "ends": [end(&arc.start), end(&arc.end)],
                 "length": arc.length,
                 "closed": arc.is_closed,
                 "unsure": arc.is_unsure,
