@@ -107,11 +107,14 @@ export class TranslucentCopies {
     return body;
   }
 
-  /** The links that the limb moves. */
+  /** The links that the limb moves while its tip is at the target: those before its last joint. */
   private links(limb: Limb): Set<number> {
     const found = new Set<number>();
     const own = new Set(limb.joints);
-    for (const [place, { parent, child }] of this.app.data.robot.joints.entries()) if (own.has(place) || found.has(parent)) found.add(child);
+    const last = Math.max(...limb.joints);
+    for (const [place, { parent, child }] of this.app.data.robot.joints.entries()) {
+      if (place !== last && (own.has(place) || found.has(parent))) found.add(child);
+    }
     return found;
   }
 

@@ -6,7 +6,7 @@ import type { Copy, TranslucentCopies } from "./copies";
 import type { Engine } from "./engine";
 import { jointValue, number } from "./format";
 import { unit } from "./kinematics";
-import { LimbSolver, type Arc, type Solution } from "./limb_solver";
+import { LimbSolver, type Arc, type ArcEnd, type Solution } from "./limb_solver";
 import type { Picture } from "./picture";
 import { fromAngles, toAngles, type Frame } from "./pose";
 
@@ -22,7 +22,7 @@ export class Solutions {
   private readonly copies: TranslucentCopies | undefined;
   /** Joint values of the robot, and the slider along the arc, in the row of its solution. */
   private readonly shown = element("shown");
-  private readonly slider = this.shown.querySelector("input")!;
+  private readonly slider = element<HTMLInputElement>("along-slider");
   private chosen: LimbSolver;
   /** The index of the solution that the robot has. */
   private taken = -1;
@@ -182,7 +182,8 @@ export class Solutions {
     row.querySelector("button")!.ariaPressed = String(place === this.taken);
     const { arc, residual } = solution;
     head!.textContent = arc ? `Arc ${place + 1}, length ${number(arc.length, 3)} rad` : `Branch ${solution.branch}`;
-    const words = arc ? arcWords(arc) : [solution.within ? "within limits" : `beyond the limits of ${solution.outside.join(", ")}`];
+    // The ends of the robot's arc are at the slider.
+    const words = arc ? arcWords(arc, place === this.taken) : [solution.within ? "within limits" : `beyond the limits of ${solution.outside.join(", ")}`];
     if (solution.free.length > 0) words.push(`self-motion about ${solution.free.join(", ")}`);
     facts!.textContent = [...words, `residual ${residual.toExponential(1)}`].join(" \u00b7 ");
   }
@@ -205,7 +206,7 @@ export class Solutions {
     slider.setAttribute("aria-valuetext", text);
     shown.querySelector("output")!.textContent = text;
     const limits = element("along-ends").children;
-    arc.ends.forEach(({ limit }, end) => (limits[end]!.textContent = limit));
+    arc.ends.forEach((end, place) => (limits[place]!.textContent = endText(end, arc.closed)));
   }
 
   /** Highlights a solution with its self-motion if it has one, or an arc. */
@@ -249,8 +250,13 @@ export class Solutions {
   }
 }
 
-/** Start and end of an arc in words, and whether it is unsure. */
-function arcWords({ ends: [start, end], closed, unsure }: Arc): string[] {
-  const known = start.limit || end.limit ? `${start.limit || "end not known"} to ${end.limit || "end not known"}` : "ends not known";
-  return [closed ? "closed curve" : known, ...(unsure ? ["unsure"] : [])];
+/** The limit at an end of an arc, or why there is none. */
+function endText({ limit }: ArcEnd, closed: boolean): string {
+  return limit || (closed ? "closed curve" : "end not known");
+}
+
+/** Start and end of an arc in words, unless it `has` a slider with them, and whether it is unsure. */
+function arcWords({ ends: [start, end], closed, unsure }: Arc, has: boolean): string[] {
+  const words = closed ? ["closed curve"] : has ? [] : [`${endText(start, closed)} to ${endText(end, closed)}`];
+  return unsure ? [...words, "unsure"] : words;
 }
