@@ -8,8 +8,10 @@ import type { Limb } from "./data";
 import { inverse, multiply, type Frame } from "./pose";
 import type { Stage } from "./stage";
 
-/** Opacity of a translucent copy, and of a highlighted one; of single solutions, and of those along arcs. */
-const OPACITY = { single: [0.16, 0.6], along: [0.07, 0.2] } as const;
+/** Opacity of a translucent copy, and of a highlighted one. */
+const SINGLE = [0.16, 0.6] as const;
+/** The same of copies along arcs; `sum` bounds the sum of all, because they overlap. */
+const ALONG = { faint: 0.07, strong: 0.2, sum: 1.5 };
 
 /** A translucent copy of the limb. */
 export interface Copy {
@@ -67,9 +69,10 @@ export class TranslucentCopies {
   }
 
   /** Highlights the copies of one row and shows its self-motion; undefined highlights those of the present arc. */
-  point(row: number | undefined, along: Frame[][] = []): void {
-    this.place(this.along, along);
-    const [faint, strong] = OPACITY[this.arc === undefined ? "single" : "along"];
+  point(row: number | undefined, motion: Frame[][] = []): void {
+    this.place(this.along, motion);
+    const along = [Math.min(ALONG.faint, ALONG.sum / this.copies.length), ALONG.strong] as const;
+    const [faint, strong] = this.arc === undefined ? SINGLE : along;
     const highlighted = row ?? this.arc;
     this.copies.forEach((copy, place) => this.bodies[place]!.fade(copy.row === highlighted ? strong : faint));
     this.stage.draw();
@@ -101,7 +104,7 @@ export class TranslucentCopies {
 
   private copy(limb: Limb): Body {
     const body = new Body(this.app.data.robot, this.app.values, this.links(limb));
-    body.fade(OPACITY.single[0]);
+    body.fade(SINGLE[0]);
     body.paint("accent");
     this.group.add(body.group);
     return body;

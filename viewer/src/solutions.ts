@@ -20,7 +20,7 @@ export class Solutions {
   private readonly list = this.panel.querySelector("ol")!;
   private readonly inputs: HTMLInputElement[];
   private readonly copies: TranslucentCopies | undefined;
-  /** Joint values of the robot, and the slider along the arc, in the row of its solution. */
+  /** Joint values of the robot, and the slider along its arc. */
   private readonly shown = element("shown");
   private readonly slider = element<HTMLInputElement>("along-slider");
   private chosen: LimbSolver;
@@ -182,25 +182,24 @@ export class Solutions {
     row.querySelector("button")!.ariaPressed = String(place === this.taken);
     const { arc, residual } = solution;
     head!.textContent = arc ? `Arc ${place + 1}, length ${number(arc.length, 3)} rad` : `Branch ${solution.branch}`;
-    // The ends of the robot's arc are at the slider.
-    const words = arc ? arcWords(arc, place === this.taken) : [solution.within ? "within limits" : `beyond the limits of ${solution.outside.join(", ")}`];
+    const words = arc ? arcWords(arc) : [solution.within ? "within limits" : `beyond the limits of ${solution.outside.join(", ")}`];
     if (solution.free.length > 0) words.push(`self-motion about ${solution.free.join(", ")}`);
     facts!.textContent = [...words, `residual ${residual.toExponential(1)}`].join(" \u00b7 ");
   }
 
-  /** Shows the joint values of the robot in the row of its solution, with the slider along its arc. */
+  /** Shows the joint values of the robot, with the slider along its arc. */
   private showValues(): void {
     const { chosen, shown, slider } = this;
-    const row = this.list.children[this.taken];
-    shown.hidden = !row;
-    if (!row) return;
-    if (shown.parentElement !== row) row.append(shown);
+    const solution = chosen.solutions[this.taken];
+    shown.hidden = !solution;
+    if (!solution) return;
     const values = chosen.joints.map((joint, place) => jointValue(this.app.values[chosen.limb.joints[place]!]!, unit(joint)));
     shown.querySelector("dl")!.replaceChildren(...chosen.joints.flatMap(({ name }, place) => [textElement("dt", name), textElement("dd", values[place]!)]));
-    const arc = chosen.solutions[this.taken]!.arc;
+    const { arc } = solution;
     element("along").hidden = !arc;
     if (!arc) return;
     [slider.max, slider.value] = [String(arc.length), String(arc.s)];
+    shown.querySelector("label")!.textContent = `Along arc ${this.taken + 1}`;
     slider.style.setProperty("--share", `${(100 * arc.s) / (arc.length || 1)}%`);
     const text = `${number(arc.s, 3)} of ${number(arc.length, 3)} rad`;
     slider.setAttribute("aria-valuetext", text);
@@ -255,8 +254,7 @@ function endText({ limit }: ArcEnd, closed: boolean): string {
   return limit || (closed ? "closed curve" : "end not known");
 }
 
-/** Start and end of an arc in words, unless it `has` a slider with them, and whether it is unsure. */
-function arcWords({ ends: [start, end], closed, unsure }: Arc, has: boolean): string[] {
-  const words = closed ? ["closed curve"] : has ? [] : [`${endText(start, closed)} to ${endText(end, closed)}`];
-  return unsure ? [...words, "unsure"] : words;
+/** Start and end of an arc in words, and whether it is unsure. */
+function arcWords({ ends: [start, end], closed, unsure }: Arc): string[] {
+  return [closed ? "closed curve" : `${endText(start, closed)} to ${endText(end, closed)}`, ...(unsure ? ["unsure"] : [])];
 }
