@@ -61,7 +61,7 @@ const FREE = { turns: Math.PI / 6, slides: 0.05 };
 /** The copies along arcs: greatest number on all arcs and on one arc, and least distance [rad]. */
 const COPIES = { all: 48, arc: 9, spacing: 0.3 };
 /** The share of its range at which a joint of a redundant limb is first; in the middle many are singular, too. */
-const FIRST = 0.6;
+const FIRST = 0.35;
 
 export class LimbSolver {
   readonly solutions: Solution[] = [];
@@ -137,9 +137,10 @@ export class LimbSolver {
       const distances = Array.from({ length: count }, (_, k) => (k * arc.length) / (arc.closed ? count : Math.max(count - 1, 1)));
       this.samples.push(this.points(place, distances).map((point) => point.q));
     }
-    const count = surface ? "The solutions are a surface; one of them is shown" : `${arcs.length} ${arcs.length === 1 ? "arc" : "arcs"} of solutions within limits`;
+    const count = `${arcs.length} ${arcs.length === 1 ? "arc" : "arcs"} of solutions within limits`;
+    const found = surface ? "The solutions are a surface; one of them is shown" : count;
     const doubt = unsure ? ". Unsure: other solutions within limits may exist" : "";
-    this.outcome = (reason === null ? count : `No solution within limits: ${reason}`) + doubt;
+    this.outcome = (reason === null ? found : `No solution within limits: ${reason}`) + doubt;
   }
 
   /** Moves a solution along its arc, to a distance from the start. */

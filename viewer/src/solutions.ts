@@ -6,7 +6,7 @@ import type { Copy, TranslucentCopies } from "./copies";
 import type { Engine } from "./engine";
 import { jointValue, number } from "./format";
 import { unit } from "./kinematics";
-import { LimbSolver, type Arc, type ArcEnd, type Solution } from "./limb_solver";
+import { LimbSolver, type Arc, type Solution } from "./limb_solver";
 import type { Picture } from "./picture";
 import { fromAngles, toAngles, type Frame } from "./pose";
 
@@ -182,7 +182,9 @@ export class Solutions {
     row.querySelector("button")!.ariaPressed = String(place === this.taken);
     const { arc, residual } = solution;
     head!.textContent = arc ? `Arc ${place + 1}, length ${number(arc.length, 3)} rad` : `Branch ${solution.branch}`;
-    const words = arc ? arcWords(arc) : [solution.within ? "within limits" : `beyond the limits of ${solution.outside.join(", ")}`];
+    const limits = solution.within ? "within limits" : `beyond the limits of ${solution.outside.join(", ")}`;
+    const words = [arc ? endTexts(arc).join(" to ") : limits];
+    if (arc?.unsure) words.push("unsure");
     if (solution.free.length > 0) words.push(`self-motion about ${solution.free.join(", ")}`);
     facts!.textContent = [...words, `residual ${residual.toExponential(1)}`].join(" \u00b7 ");
   }
@@ -205,7 +207,7 @@ export class Solutions {
     slider.setAttribute("aria-valuetext", text);
     shown.querySelector("output")!.textContent = text;
     const limits = element("along-ends").children;
-    arc.ends.forEach((end, place) => (limits[place]!.textContent = endText(end, arc.closed)));
+    [0, 1].forEach((end) => (limits[end]!.textContent = endTexts(arc)[end] ?? ""));
   }
 
   /** Highlights a solution with its self-motion if it has one, or an arc. */
@@ -249,12 +251,7 @@ export class Solutions {
   }
 }
 
-/** The limit at an end of an arc, or why there is none. */
-function endText({ limit }: ArcEnd, closed: boolean): string {
-  return limit || (closed ? "closed curve" : "end not known");
-}
-
-/** Start and end of an arc in words, and whether it is unsure. */
-function arcWords({ ends: [start, end], closed, unsure }: Arc): string[] {
-  return [closed ? "closed curve" : `${endText(start, closed)} to ${endText(end, closed)}`, ...(unsure ? ["unsure"] : [])];
+/** The limits at the ends of an arc; one text for a closed curve. */
+function endTexts({ ends, closed }: Arc): string[] {
+  return closed ? ["closed curve"] : ends.map(({ limit }) => limit || "end not known");
 }
