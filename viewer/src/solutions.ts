@@ -131,8 +131,7 @@ export class Solutions {
     try {
       chosen.solve(target);
     } catch (error) {
-      element("solutions-state").textContent = error instanceof Error ? error.message : String(error);
-      return;
+      chosen.outcome = error instanceof Error ? error.message : String(error);
     }
     if (moves) return this.take(chosen.nearest());
     this.taken = chosen.nearest();
