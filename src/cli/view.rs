@@ -31,12 +31,14 @@ const EXAMPLES: &str = "Examples:
   groebot view robot.urdf --tip tool0 -o solutions.html
   groebot view nao --tip l_sole --tip r_sole -o legs.html
   groebot view derivations/ur5 -o ur5.html
+  groebot view derivations/panda -o panda.html
   groebot view derivations/ur5 --reach ur5.json -o reach.html
   groebot view rh0 --room living-room --start 1,2.6 --goal 7.2,3.4 -o living_room.html
 
-With --tip, and for a derivation, the page shows all solutions while the target is dragged. In a
-room the robot walks while goal, furniture and the parameters of its gait are changed. The page is
-one self-contained HTML file that makes no network requests. The JSON of a walk has footsteps and
+With --tip, and for a derivation, the page shows all solutions while the target is dragged; of a
+redundant arm, all arcs of solutions within limits, with a slider along each arc. In a room the
+robot walks while goal, furniture and the parameters of its gait are changed. The page is one
+self-contained HTML file that makes no network requests. The JSON of a walk has footsteps and
 phases, its CSV does not.
 
 Robots of groebot: nao, rh0, teo.";

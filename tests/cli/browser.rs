@@ -30,7 +30,7 @@ fn node_tests(names: &[&str], tools: &[(&str, &str)]) {
 
 #[test]
 fn pages_work_in_chromium() {
-    node_tests(&["walk", "robot", "trouble", "solutions", "reach", "run", "task"], &[]);
+    node_tests(&["walk", "robot", "trouble", "solutions", "redundant", "reach", "run", "task"], &[]);
 }
 
 #[test]

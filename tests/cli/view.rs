@@ -94,6 +94,8 @@ fn derivations_and_rooms_become_pages() {
             && derived.contains("\"wasm\":\"")
             && derived.len() < 2_000_000
     );
+    let redundant = read(&[text(&root("derivations/panda"))]);
+    assert!(redundant.contains("\"limbs\":[{\"name\":\"panda\"") && redundant.len() < 2_000_000);
     let solved = read(&[text(&root(ARM)), "--tip", "wrist_3_link"]);
     assert!(solved.contains("\"limbs\":[{\"name\":\"wrist_3_link\"") && solved.len() < 2_000_000);
     let reported = refused(&with(&page, &[text(&root(ARM)), "--tip", "tool9"]));

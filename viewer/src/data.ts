@@ -120,7 +120,7 @@ export interface Limb {
   joints: number[];
   /** The solver's unit of length [m]. */
   metres: number;
-  /** The text of its 5_program.json. */
+  /** The text of its 5_program.json; packed in the file. */
   program: string;
   /** The SHA-256 of its certificate. */
   certificate?: string;
@@ -219,7 +219,10 @@ export async function read(text: string): Promise<Data> {
     checkRobot(data.robot);
     const motion = data.motion && readMotion(await unpacked(data.motion), data.robot);
     const limbs: Limb[] = data.limbs ?? [];
-    limbs.forEach((limb) => checkLimb(limb, data.robot));
+    for (const limb of limbs) {
+      checkLimb(limb, data.robot);
+      limb.program = new TextDecoder().decode(await inflated(limb.program));
+    }
     if (data.task) checkTask(data.task);
     const reach = data.reach && (await readReach(data.reach, data.robot));
     return { title: String(data.title), robot: data.robot, motion, limbs, run: data.run, task: data.task, reach, wasm: data.wasm };

@@ -14,6 +14,11 @@ export function quantity(value: number, unit: string, most = Math.abs(value)): s
   return `${number(value, most >= 100 ? 1 : 3)}${unit === "1" ? "" : ` ${unit}`}`;
 }
 
+/** A joint value; angles in rad and degrees. */
+export function jointValue(value: number, unit: string): string {
+  return unit === "m" ? `${number(value, 3)} m` : `${number(value, 3)} rad\u2002${number((180 / Math.PI) * value, 1)}\u00b0`;
+}
+
 const NAMES: Record<string, string> = { com: "Centre of mass", zmp: "ZMP", pendulum: "Pendulum ZMP" };
 
 /** The displayed name of a point or quantity. */

@@ -34,10 +34,14 @@ export interface Groebot {
   readonly limbs: string[];
   /** Moves the tip of a limb to a target in the frame of its base: position [m], then the rotation by rows. The robot takes the nearest solution. */
   drag(limb: string, numbers: number[]): void;
-  /** All solutions of the last target. */
+  /** All solutions of the last target; of a redundant limb, one solution of each arc. */
   solutions(): Solution[];
-  /** Joint values along the self-motion of the solution with this index, within limits; empty if no joint is free. */
+  /** The outcome of the last target as text, with the reason if there is no solution. */
+  readonly outcome: string;
+  /** Joint values along the self-motion of the solution with this index, within limits; empty if no joint is free. Of a redundant limb, along the arc. */
   self_motion(place: number): number[][];
+  /** Moves the robot along the arc with this index, to a distance from its start [rad]. */
+  slide(place: number, s: number): void;
   /** Time to compute the solutions, without drawing [ms]. */
   readonly update_ms: number;
   /** The reach map of the limb; null without a map. */
@@ -169,8 +173,12 @@ window.groebot = {
     return started?.solutions?.names ?? [];
   },
   drag: (limb, numbers) => solved().drag(limb, numbers),
-  solutions: () => solved().solutions.map((solution) => ({ ...solution, q: [...solution.q] })),
+  solutions: () => solved().solutions.map((solution) => structuredClone(solution)),
+  get outcome() {
+    return solved().outcome;
+  },
   self_motion: (place) => solved().selfMotion(place),
+  slide: (place, s) => solved().slide(place, s),
   get update_ms() {
     return solved().updateMs;
   },

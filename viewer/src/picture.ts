@@ -4,10 +4,10 @@ import { Box3, Vector3 } from "three";
 import type { App } from "./app";
 import { Body } from "./body";
 import { Cloud } from "./cloud";
+import { TranslucentCopies } from "./copies";
 import type { Motion, Scene } from "./data";
 import { CameraControl, type View } from "./camera";
 import { Overlays, type Layer } from "./overlays";
-import { Ghosts } from "./ghosts";
 import { move, type Frame, type Vector } from "./pose";
 import { RoomView, type Dragging } from "./room";
 import type { Run } from "./run";
@@ -29,7 +29,7 @@ export class Picture {
   private readonly body: Body;
   private overlays: Overlays | undefined;
   private readonly camera: CameraControl;
-  private ghosts: Ghosts | undefined;
+  private copies: TranslucentCopies | undefined;
   private room: RoomView | undefined;
   private readonly cloud: Cloud | undefined;
 
@@ -97,9 +97,9 @@ export class Picture {
   }
 
   /** Adds the translucent copies of solutions and the target. */
-  withGhosts(dragged: (target: Frame) => void): Ghosts {
-    this.ghosts = new Ghosts(this.app, this.stage, this.canvas, dragged, (isHeld) => this.camera.hold(isHeld));
-    return this.ghosts;
+  withCopies(dragged: (target: Frame) => void): TranslucentCopies {
+    this.copies = new TranslucentCopies(this.app, this.stage, this.canvas, dragged, (isHeld) => this.camera.hold(isHeld));
+    return this.copies;
   }
 
   /** Draws the selected places of the reach map. Returns the number of drawn places. */
@@ -151,7 +151,7 @@ export class Picture {
   paint(): void {
     this.body.paint();
     this.overlays?.paint();
-    this.ghosts?.paint();
+    this.copies?.paint();
     this.room?.paint();
     this.stage.paint();
   }

@@ -15,7 +15,7 @@ export class Simulator {
   private readonly spot: HTMLInputElement[];
   private readonly choice = element<HTMLSelectElement>("thing");
   private readonly room: RoomView | undefined;
-  private film: MediaRecorder | undefined;
+  private recorder: MediaRecorder | undefined;
 
   /** `grown` is called after new samples. */
   constructor(private readonly run: Run, private readonly app: App, private readonly canvas: HTMLCanvasElement, picture: Picture | undefined, private readonly grown: () => void) {
@@ -28,8 +28,8 @@ export class Simulator {
     this.spot = PLACE.map(([name, unit, step]) => this.input("place", name, unit, step, () => this.typed()));
     element("run-step").onclick = () => this.attempt(() => this.step());
     element("run-reset").onclick = () => this.attempt(() => this.reset());
-    element("run-film").onclick = () => this.toggleFilm();
-    element<HTMLButtonElement>("run-film").disabled = !picture;
+    element("run-video").onclick = () => this.toggleVideo();
+    element<HTMLButtonElement>("run-video").disabled = !picture;
     element("run-csv").onclick = () => offer(new Blob([run.csv()], { type: "text/csv" }), "walk.csv");
     run.watchers.push(() => this.show());
     this.show();
@@ -157,26 +157,26 @@ export class Simulator {
     if (refused.length > 0) this.state(refused.join("; "), true);
   }
 
-  private toggleFilm(): void {
-    if (this.film) return this.film.stop();
+  private toggleVideo(): void {
+    if (this.recorder) return this.recorder.stop();
     const parts: Blob[] = [];
     const stream = this.canvas.captureStream(30);
     const release = () => stream.getTracks().forEach((track) => track.stop());
     try {
-      this.film = new MediaRecorder(stream, { mimeType: "video/webm" });
+      this.recorder = new MediaRecorder(stream, { mimeType: "video/webm" });
     } catch {
       release();
       return this.state("This browser cannot record video", true);
     }
-    this.film.ondataavailable = ({ data }) => parts.push(data);
-    this.film.onstop = () => {
-      this.film = undefined;
+    this.recorder.ondataavailable = ({ data }) => parts.push(data);
+    this.recorder.onstop = () => {
+      this.recorder = undefined;
       release();
-      element("run-film").ariaPressed = "false";
+      element("run-video").ariaPressed = "false";
       offer(new Blob(parts, { type: "video/webm" }), "walk.webm");
     };
-    this.film.start();
-    element("run-film").ariaPressed = "true";
+    this.recorder.start();
+    element("run-video").ariaPressed = "true";
   }
 }
 

@@ -2,7 +2,7 @@
 
 import type { Robot } from "./data";
 import { moves, unit } from "./kinematics";
-import { number, range } from "./format";
+import { jointValue, range } from "./format";
 
 interface Row {
   input: HTMLInputElement;
@@ -26,7 +26,7 @@ export class Sliders {
       const value = values[place]!;
       const joint = this.robot.joints[place]!;
       if (Number(input.value) !== value) input.value = String(value);
-      const text = unit(joint) === "m" ? `${number(value, 3)} m` : `${number(value, 3)} rad\u2002${number((180 / Math.PI) * value, 1)}\u00b0`;
+      const text = jointValue(value, unit(joint));
       if (output.textContent === text) continue;
       output.textContent = text;
       input.setAttribute("aria-valuetext", text);

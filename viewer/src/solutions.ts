@@ -1,10 +1,12 @@
-/** The panel of all solutions: limb, numbers of the target, and one row for each solution. */
+/** The panel of all solutions: limb, numbers of the target, and one row for each solution or arc. */
 
 import type { App } from "./app";
 import { element, textElement } from "./user_interface";
+import type { Copy, TranslucentCopies } from "./copies";
 import type { Engine } from "./engine";
-import type { Ghosts } from "./ghosts";
-import { LimbSolver, type Solution } from "./limb_solver";
+import { jointValue, number } from "./format";
+import { unit } from "./kinematics";
+import { LimbSolver, type Arc, type Solution } from "./limb_solver";
 import type { Picture } from "./picture";
 import { fromAngles, toAngles, type Frame } from "./pose";
 
@@ -17,7 +19,10 @@ export class Solutions {
   private readonly panel = element("solutions");
   private readonly list = this.panel.querySelector("ol")!;
   private readonly inputs: HTMLInputElement[];
-  private readonly ghosts: Ghosts | undefined;
+  private readonly copies: TranslucentCopies | undefined;
+  /** Joint values of the robot, and the slider along its arc. */
+  private readonly shown = element("shown");
+  private readonly slider = element<HTMLInputElement>("along-slider");
   private chosen: LimbSolver;
   /** The index of the solution that the robot has. */
   private taken = -1;
@@ -37,7 +42,7 @@ export class Solutions {
 
   private constructor(private readonly app: App, picture: Picture | undefined, private readonly solvers: LimbSolver[]) {
     this.chosen = solvers[0]!;
-    this.ghosts = picture?.withGhosts((target) => this.solve(target));
+    this.copies = picture?.withCopies((target) => this.solve(target));
     this.inputs = FIELDS.map((field) => this.field(field));
     const choice = element<HTMLSelectElement>("limb");
     choice.append(...solvers.map(({ limb }) => new Option(limb.name)));
@@ -47,11 +52,17 @@ export class Solutions {
       element(id).onclick = () => this.turn(turns);
       element(id).hidden = !picture;
     }
+    solvers.forEach((solver) => solver.start());
+    this.slider.oninput = () => this.slide(this.taken, Number(this.slider.value));
     this.choose(this.chosen);
   }
 
   get names(): string[] {
     return this.solvers.map(({ limb }) => limb.name);
+  }
+
+  get outcome(): string {
+    return this.chosen.outcome;
   }
 
   get solutions(): Solution[] {
@@ -62,6 +73,12 @@ export class Solutions {
     return this.chosen.selfMotion(place);
   }
 
+  /** Moves the robot along an arc, to a distance from its start. */
+  slide(place: number, s: number): void {
+    this.chosen.slide(place, s);
+    this.take(place);
+  }
+
   get updateMs(): number {
     return this.chosen.updateMs;
   }
@@ -69,7 +86,7 @@ export class Solutions {
   /** Shows or hides the translucent copies with the panel. */
   open(isOpen: boolean): void {
     if (isOpen) this.show();
-    else this.ghosts?.hide();
+    else this.copies?.hide();
   }
 
   /** Solves a limb for a target, twelve numbers: position, then the rotation by rows. */
@@ -90,7 +107,7 @@ export class Solutions {
   private choose(solver: LimbSolver): void {
     this.chosen = solver;
     this.showCertificate(solver.limb.certificate);
-    this.solve(solver.reached());
+    this.solve(solver.reached(), false);
   }
 
   private showCertificate(hash: string | undefined): void {
@@ -108,15 +125,17 @@ export class Solutions {
     };
   }
 
-  private solve(target: Frame): void {
+  /** Solves for a target. The robot takes the nearest solution, unless it has the target's pose already. */
+  private solve(target: Frame, moves = true): void {
     const { chosen } = this;
     try {
       chosen.solve(target);
     } catch (error) {
-      element("solutions-state").textContent = error instanceof Error ? error.message : String(error);
-      return;
+      chosen.outcome = error instanceof Error ? error.message : String(error);
     }
-    this.take(chosen.nearest());
+    if (moves) return this.take(chosen.nearest());
+    this.taken = chosen.nearest();
+    this.show();
   }
 
   /** Sets the robot to a solution. */
@@ -128,18 +147,16 @@ export class Solutions {
   }
 
   private turn(isTurned: boolean): void {
-    if (this.ghosts) this.ghosts.turns = isTurned;
+    if (this.copies) this.copies.turns = isTurned;
     element("target-move").ariaPressed = String(!isTurned);
     element("target-turn").ariaPressed = String(isTurned);
   }
 
   private show(): void {
     if (this.panel.hidden) return;
-    const { solutions, frames, target, limb } = this.chosen;
-    this.ghosts?.show(limb, target, frames, this.taken);
-    const within = solutions.filter((solution) => solution.within).length;
-    const count = `${solutions.length} ${solutions.length === 1 ? "solution" : "solutions"}`;
-    element("solutions-state").textContent = solutions.length === 0 ? "Out of reach: no solution" : `${count}, ${within} within limits`;
+    const { solutions, target, limb } = this.chosen;
+    this.copies?.show(limb, target, this.drawn(), this.chosen.isRedundant ? this.taken : undefined);
+    element("solutions-state").textContent = this.chosen.outcome;
     const angles = toAngles(target).map((angle) => (180 / Math.PI) * angle);
     [target[3]!, target[7]!, target[11]!, ...angles].forEach((value, place) => {
       const input = this.inputs[place]!;
@@ -147,6 +164,14 @@ export class Solutions {
     });
     while (this.list.children.length < solutions.length) this.list.append(this.row(this.list.children.length));
     [...this.list.children].forEach((row, place) => this.fill(row as HTMLElement, solutions[place], place));
+    this.showValues();
+  }
+
+  /** The copies of all arcs, or of the solutions that the robot does not have. */
+  private drawn(): Copy[] {
+    const { chosen } = this;
+    if (!chosen.isRedundant) return chosen.frames.map((frames, row) => ({ row, frames })).filter(({ row }) => row !== this.taken);
+    return chosen.solutions.flatMap((_, row) => chosen.selfMotion(row).map((q) => ({ row, frames: chosen.framesOf(q) })));
   }
 
   private fill(row: HTMLElement, solution: Solution | undefined, place: number): void {
@@ -154,16 +179,40 @@ export class Solutions {
     if (!solution) return;
     const [head, facts] = row.querySelectorAll<HTMLElement>("strong, small");
     row.querySelector("button")!.ariaPressed = String(place === this.taken);
-    head!.textContent = `Branch ${solution.branch}`;
-    const words = [solution.within ? "within limits" : `beyond the limits of ${solution.outside.join(", ")}`];
+    const { arc, residual } = solution;
+    head!.textContent = arc ? `Arc ${place + 1}, length ${number(arc.length, 3)} rad` : `Branch ${solution.branch}`;
+    const limits = solution.within ? "within limits" : `beyond the limits of ${solution.outside.join(", ")}`;
+    const words = [arc ? endTexts(arc).join(" to ") : limits];
+    if (arc?.unsure) words.push("unsure");
     if (solution.free.length > 0) words.push(`self-motion about ${solution.free.join(", ")}`);
-    facts!.textContent = [...words, `residual ${solution.residual.toExponential(1)}`].join(" \u00b7 ");
+    facts!.textContent = [...words, `residual ${residual.toExponential(1)}`].join(" \u00b7 ");
   }
 
-  /** Highlights a solution, with its self-motion if it has one. */
+  /** Shows the joint values of the robot, with the slider along its arc. */
+  private showValues(): void {
+    const { chosen, shown, slider } = this;
+    const solution = chosen.solutions[this.taken];
+    shown.hidden = !solution;
+    if (!solution) return;
+    const values = chosen.joints.map((joint, place) => jointValue(this.app.values[chosen.limb.joints[place]!]!, unit(joint)));
+    shown.querySelector("dl")!.replaceChildren(...chosen.joints.flatMap(({ name }, place) => [textElement("dt", name), textElement("dd", values[place]!)]));
+    const { arc } = solution;
+    element("along").hidden = !arc;
+    if (!arc) return;
+    [slider.max, slider.value] = [String(arc.length), String(arc.s)];
+    shown.querySelector("label")!.textContent = `Along arc ${this.taken + 1}`;
+    slider.style.setProperty("--share", `${(100 * arc.s) / (arc.length || 1)}%`);
+    const text = `${number(arc.s, 3)} of ${number(arc.length, 3)} rad`;
+    slider.setAttribute("aria-valuetext", text);
+    shown.querySelector("output")!.textContent = text;
+    const limits = element("along-ends").children;
+    [0, 1].forEach((end) => (limits[end]!.textContent = endTexts(arc)[end] ?? ""));
+  }
+
+  /** Highlights a solution with its self-motion if it has one, or an arc. */
   private point(place: number): void {
     const { chosen } = this;
-    this.ghosts?.point(place, chosen.selfMotion(place).map((q) => chosen.framesOf(q)));
+    this.copies?.point(place, chosen.isRedundant ? [] : chosen.selfMotion(place).map((q) => chosen.framesOf(q)));
   }
 
   private row(place: number): HTMLLIElement {
@@ -176,7 +225,7 @@ export class Solutions {
     });
     for (const [begin, end] of [["pointerenter", "pointerleave"], ["focus", "blur"]] as const) {
       press.addEventListener(begin, () => this.point(place));
-      press.addEventListener(end, () => this.ghosts?.point(undefined));
+      press.addEventListener(end, () => this.copies?.point(undefined));
     }
     item.append(press);
     return item;
@@ -199,4 +248,9 @@ export class Solutions {
     const angles = numbers.slice(3).map((degrees) => (Math.PI / 180) * degrees) as [number, number, number];
     this.solve(fromAngles(numbers as [number, number, number], angles));
   }
+}
+
+/** The limits at the ends of an arc; one text for a closed curve. */
+function endTexts({ ends, closed }: Arc): string[] {
+  return closed ? ["closed curve"] : ends.map(({ limit }) => limit || "end not known");
 }

@@ -106,9 +106,9 @@ test("a reset walk is the same walk", async () => {
   assert.deepEqual(await walk(), first);
 });
 
-test("a film gives its tracks back; without a picture there is none", async () => {
+test("a recorded video releases its tracks; without a picture there is none", async () => {
   const opened = await open(browser, file);
-  const film = opened.getByRole("button", { name: "Film" });
+  const record = opened.getByRole("button", { name: "Record video" });
   await opened.evaluate(() => {
     const capture = HTMLCanvasElement.prototype.captureStream;
     HTMLCanvasElement.prototype.captureStream = function (...given) {
@@ -116,16 +116,16 @@ test("a film gives its tracks back; without a picture there is none", async () =
     };
   });
   const states = () => opened.evaluate(() => window.stream.getTracks().map(({ readyState }) => readyState));
-  await film.click();
+  await record.click();
   assert.deepEqual(await states(), ["live"]);
   const download = opened.waitForEvent("download");
-  await film.click();
+  await record.click();
   await download;
   assert.deepEqual(await states(), ["ended"]);
 
   const blind = await browse({ webgl: false });
   const plain = await open(blind, file);
-  assert.ok(await plain.getByRole("button", { name: "Film" }).isDisabled());
+  assert.ok(await plain.getByRole("button", { name: "Record video" }).isDisabled());
   assert.equal(await plain.evaluate(() => groebot.step()), "step");
   await blind.close();
 });

@@ -7,6 +7,7 @@ const PICTURES = [
   ["simulator_walk", ["walk.json"], { viewport: { width: 900, height: 580 } }, 4.3],
   ["simulator_joints", ["nao"], { viewport: { width: 900, height: 580 } }],
   ["simulator_solutions", [path.join(root, "derivations/ur5")], { viewport: { width: 900, height: 580 } }],
+  ["simulator_arcs", [path.join(root, "tests/corpus/redundant/arms/panda.urdf"), "--tip", "panda_hand_tcp"], { viewport: { width: 900, height: 640 } }],
   ["simulator_reach", [path.join(root, "derivations/ur5"), "--reach", "map.json"], { viewport: { width: 1000, height: 640 } }],
   ["simulator_room", ["rh0", "--room", "living-room", "--start", "1,2.6", "--goal", "7.2,3.4"], { viewport: { width: 1000, height: 640 } }],
   ["simulator_task", ["task.json"], { viewport: { width: 1000, height: 640 } }],
@@ -21,6 +22,11 @@ const ACTS = {
   },
   simulator_joints: (opened) => opened.getByLabel("LShoulderRoll", { exact: true }).fill("0.9"),
   simulator_solutions: (opened) => opened.evaluate(() => groebot.drag("ur5", [-0.4, -0.2, 0.3, 0.6, 0, 0.8, 0, 1, 0, -0.8, 0, 0.6])),
+  simulator_arcs: async (opened) => {
+    // The ready pose of the maker.
+    await opened.evaluate(() => groebot.drag("panda_hand_tcp", [0.306891, 0, 0.486882, 1, 0, 0, 0, -1, 0, 0, 0, -1]));
+    await opened.evaluate(() => groebot.slide(groebot.solutions().findIndex(({ arc }) => arc.length > 6), 2.4));
+  },
   simulator_reach: async (opened) => {
     await opened.getByRole("button", { name: "Front" }).click();
     await opened.evaluate(() => groebot.reach.show({ upto: [0, 9, 9] }));

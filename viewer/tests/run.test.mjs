@@ -124,7 +124,7 @@ test("it walks while it plays, and what it walked is read back", async () => {
   assert.ok(readFileSync(inFolder("walked.csv"), "utf8").startsWith("# groebot trajectory 1\n# robot: rh0\n"));
 });
 
-test("numbers and film are saved", async () => {
+test("joint values and a video are saved", async () => {
   const opened = await open(browser, file);
   const saved = async (name, act) => {
     const download = opened.waitForEvent("download", { timeout: 30000 });
@@ -133,17 +133,17 @@ test("numbers and film are saved", async () => {
     return readFileSync(inFolder(name));
   };
   const press = (name) => opened.getByRole("button", { name }).click();
-  const numbers = await saved("walk.csv", () => press("Numbers"));
-  assert.equal(numbers.toString(), await opened.evaluate(() => groebot.csv()));
-  const film = await saved("walk.webm", async () => {
-    await press("Film");
+  const table = await saved("walk.csv", () => press("Save CSV"));
+  assert.equal(table.toString(), await opened.evaluate(() => groebot.csv()));
+  const video = await saved("walk.webm", async () => {
+    await press("Record video");
     await opened.evaluate(() => groebot.step());
     for (let k = 0; k < 10; k++) await opened.evaluate((at) => groebot.seek(at), 3 + 0.2 * k).then(() => picture(opened));
-    await press("Film");
+    await press("Record video");
   });
   // EBML, the container format of WebM.
-  assert.deepEqual([...film.subarray(0, 4)], [0x1a, 0x45, 0xdf, 0xa3]);
-  assert.ok(film.length > 1000);
+  assert.deepEqual([...video.subarray(0, 4)], [0x1a, 0x45, 0xdf, 0xa3]);
+  assert.ok(video.length > 1000);
   assert.deepEqual(opened.complaints, []);
 });
 

@@ -79,7 +79,7 @@ test("rows and fields take solutions and targets", async () => {
   assert.ok(!before.equals(await picture(shown)), "another pose is another picture");
   const still = await picture(shown);
   await rows.nth(2).hover();
-  assert.ok(!still.equals(await picture(shown)), "a ghost stands out");
+  assert.ok(!still.equals(await picture(shown)), "a copy is highlighted");
   const x = shown.getByLabel("Target x, metres");
   const told = Number(await x.inputValue());
   await x.fill(String(told - 0.05));
@@ -128,8 +128,8 @@ test("a singular pose tells its self-motion, joints beyond limits their names", 
   const spread = await canvas();
   await row.blur();
   await shown.getByRole("heading", { name: "Solutions" }).hover();
-  // The robot itself shows that solution, which has no ghost.
-  assert.ok(!spread.equals(await canvas()), "ghosts stand along the self-motion");
+  // The robot itself shows that solution, which has no copy.
+  assert.ok(!spread.equals(await canvas()), "copies are along the self-motion");
   const leg = await open(browser, page("leg.html", path.join(root, "derivations/nao_left_leg")));
   const far = await leg.evaluate(() => groebot.solutions());
   assert.ok(far.some(({ outside }) => outside.length > 0) && far.some(({ within }) => within));

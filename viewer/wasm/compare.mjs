@@ -36,6 +36,10 @@ for (const [solver, [name, reach]] of [["ur5", 0.5], ["rh0_left_leg", 0.4], ["ge
   requests.push({ open: read("derivations", name, "5_program.json") });
   requests.push(...targets(200, reach).map((target) => ({ solve: { solver, target } })));
 }
+// A redundant arm: derivations/planar_3r with the task planar_position, an elbow of -2 to 2 rad, and its solver without a given joint.
+requests.push({ open: read("viewer/wasm/planar_arm.json") });
+const arcs = targets(100, 0.7).map(([x, y]) => ({ arcs: { solver: 3, target: [x, y], near: [0.1, 0.5, 0.2] } }));
+requests.push(...arcs.flatMap((request) => [request, { points: { solver: 3, arc: 0, distances: [0, 0.7, 1.4, 99] } }]));
 const room = read("examples/living_room.toml");
 for (const robot of ["rh0", "nao", "teo"]) {
   requests.push({ run: { robot, room, start: [1, 2.6, 0], goal: [7.2, 3.4], apart: 0.02 } }, "step", "step");
@@ -43,12 +47,14 @@ for (const robot of ["rh0", "nao", "teo"]) {
 }
 requests.push("fly");
 const [one, other] = process.argv.slice(2).map(asker);
-let refused = 0;
+let [refused, found] = [0, 0];
 for (const [place, request] of requests.entries()) {
   const [own, their] = [one(request), other(request)];
   if (own.startsWith('{"error"')) refused += 1;
+  if (own.includes('"arcs":[{')) found += 1;
   if (own === their) continue;
   console.error(`request ${place}, ${JSON.stringify(request).slice(0, 200)}: answers differ\n${own.slice(0, 500)}\n${their.slice(0, 500)}`);
   process.exit(1);
 }
-console.log(`${requests.length} answers are the same, ${refused} of them refusals`);
+console.log(`${requests.length} answers are the same, ${refused} of them refusals, ${found} of them arcs`);
+if (found < 50) process.exitCode = 1;

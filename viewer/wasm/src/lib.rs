@@ -3,6 +3,7 @@
 //! The page allocates memory for a request by [`allocate`], writes it there, and calls [`call`], which returns the address of the response. [`length`] returns
 //! its length. Both are valid until the next call.
 
+mod arm;
 mod session;
 
 use std::cell::RefCell;

@@ -1,5 +1,6 @@
 //! Requests and responses. Main type: [`Session`].
 
+use crate::arm::Arm;
 use groebot::gait::{Footprint, Side, Walk};
 use groebot::kinematics::Solution;
 use groebot::nav::{Piece, Room};
@@ -15,7 +16,8 @@ use serde_json::{Value, json};
 #[derive(Deserialize)]
 #[serde(rename_all = "lowercase", deny_unknown_fields)]
 enum Request {
-    /// Load a derived solver, the text of its `5_program.json`: `{"solver": 0, "joints": ["hip", ..], "inputs": ["p.x", ..]}`.
+    /// Load a derived solver, the text of its `5_program.json`: `{"solver": 0, "joints": ["hip", ..], "inputs": ["p.x", ..], "redundant": false}`.
+    /// The inputs of a redundant solver are those of the target.
     Open(String),
     /// Solve for a target: `{"solutions": [{"q", "residual", "branch", "free", "chosen"}, ..]}`.
     Solve {
@@ -23,6 +25,25 @@ enum Request {
         solver: usize,
         /// One number for each input.
         target: Vec<f64>,
+    },
+    /// Compute all arcs of solutions within limits of a redundant solver:
+    /// `{"arcs": [{"ends": [{"q", "limit"}, ..], "length", "closed", "unsure", "s", "q", "residual"}, ..], "reason", "unsure", "surface"}`.
+    Arcs {
+        /// The index that [`Request::Open`] returned.
+        solver: usize,
+        /// One number for each input.
+        target: Vec<f64>,
+        /// Joint values. `s` and `q` of an arc are its nearest solution to them.
+        near: Vec<f64>,
+    },
+    /// Compute solutions on an arc of the last target: `{"points": [{"q", "residual"}, ..]}`.
+    Points {
+        /// The index that [`Request::Open`] returned.
+        solver: usize,
+        /// The index of the arc.
+        arc: usize,
+        /// Distances from the start of the arc.
+        distances: Vec<f64>,
     },
     /// Place a robot of groebot in a room. The response is the state (the function `state`), with the samples in which the robot
     /// lowers its body.
@@ -58,10 +79,17 @@ enum Request {
     },
 }
 
+/// A loaded solver.
+struct Loaded {
+    solver: Solver,
+    /// The same arm without the given joint of the solver, if it is redundant.
+    arm: Option<Arm>,
+}
+
 /// The loaded solvers, and the run.
 #[derive(Default)]
 pub struct Session {
-    solvers: Vec<Solver>,
+    solvers: Vec<Loaded>,
     run: Option<Run>,
     /// The initial furniture of the room. Removed pieces can be restored.
     furniture: Vec<Piece>,
@@ -80,10 +108,11 @@ impl Session {
         match request {
             Request::Open(program) => self.open(&program),
             Request::Solve { solver, target } => {
-                let unknown = || Error::new(ErrorKind::UnknownName, format!("there is no solver {solver}"));
-                let solutions: Vec<Solution> = self.solvers.get(solver).ok_or_else(unknown)?.solve_numbers(&target)?;
+                let solutions: Vec<Solution> = self.loaded(solver)?.solver.solve_numbers(&target)?;
                 Ok(json!({ "solutions": solutions }))
             }
+            Request::Arcs { solver, target, near } => self.arm(solver)?.arcs(&target, &near),
+            Request::Points { solver, arc, distances } => self.arm(solver)?.points(arc, &distances),
             Request::Run { robot, room, start: [x, y, yaw], goal, apart } => {
                 let (room, middle) = (Room::from_toml(&room)?, Footprint { x, y, yaw });
                 let start = Start::of_robot(&robot, room, middle, Goal::of(&goal)?.into(), apart)?;
@@ -128,12 +157,29 @@ impl Session {
 
     fn open(&mut self, program: &str) -> Result<Value> {
         let program = Program::from_json(program)?;
-        self.solvers.push(program.solver());
-        Ok(json!({
-            "solver": self.solvers.len() - 1,
+        let arm = Arm::new(&program);
+        let given = if arm.is_some() { program.given_joints.len() } else { 0 };
+        let inputs = program.inputs.iter().take(program.inputs.len() - given);
+        let response = json!({
+            "solver": self.solvers.len(),
             "joints": program.joints.iter().map(|joint| joint.name.as_str()).collect::<Vec<_>>(),
-            "inputs": program.inputs.iter().map(|input| input.name.as_str()).collect::<Vec<_>>(),
-        }))
+            "inputs": inputs.map(|input| input.name.as_str()).collect::<Vec<_>>(),
+            "redundant": arm.is_some(),
+        });
+        self.solvers.push(Loaded { solver: program.solver(), arm });
+        Ok(response)
+    }
+
+    fn loaded(&mut self, solver: usize) -> Result<&mut Loaded> {
+        let unknown = || Error::new(ErrorKind::UnknownName, format!("there is no solver {solver}"));
+        self.solvers.get_mut(solver).ok_or_else(unknown)
+    }
+
+    fn arm(&mut self, solver: usize) -> Result<&mut Arm> {
+        let single = || {
+            Error::new(ErrorKind::Unsupported, format!("solver {solver} is not redundant: its solutions are no arcs"))
+        };
+        self.loaded(solver)?.arm.as_mut().ok_or_else(single)
     }
 
     fn running(&mut self) -> Result<&mut Run> {

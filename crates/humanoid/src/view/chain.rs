@@ -2,6 +2,7 @@
 
 use nalgebra::{Point3, Translation3, UnitQuaternion, Vector3};
 
+use super::bytes;
 use super::data::{Follows, Joint, Limb, Link, Robot};
 use super::robot::frame;
 use groebot_robot::kinematics::{Chain, JointKind};
@@ -58,14 +59,14 @@ pub fn described(chain: &Chain) -> Robot {
 }
 
 /// The chain as a limb whose solutions are shown, with the text of its solver.
-pub fn limb(chain: &Chain, program: String, certificate: Option<String>) -> Limb {
+pub fn limb(chain: &Chain, program: &str, certificate: Option<String>) -> Limb {
     Limb {
         name: chain.name().to_owned(),
         base: 0,
         tip: chain.joints().len() + 1,
         joints: (0..chain.joints().len()).collect(),
         metres: chain.length_unit().metres(),
-        program,
+        program: bytes::file(program.as_bytes()),
         certificate,
     }
 }

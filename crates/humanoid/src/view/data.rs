@@ -43,7 +43,7 @@ pub struct Limb {
     pub joints: Vec<usize>,
     /// The solver's unit of length.
     pub metres: f64,
-    /// The text of its `5_program.json`.
+    /// The text of its `5_program.json`, packed.
     pub program: String,
     /// The SHA-256 of its certificate.
     #[serde(skip_serializing_if = "Option::is_none")]

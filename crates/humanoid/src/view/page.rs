@@ -49,7 +49,7 @@ impl Page {
     /// `5_program.json`, and of its certificate.
     pub fn of_chain(chain: &Chain, program: String, certificate: Option<&str>) -> Self {
         let mut page = Page::of(chain::described(chain));
-        page.data.limbs.push(chain::limb(chain, program, certificate.map(hash)));
+        page.data.limbs.push(chain::limb(chain, &program, certificate.map(hash)));
         page.data.wasm = Some(bytes::file(WASM));
         page
     }
@@ -83,7 +83,7 @@ impl Page {
             base,
             tip: tip_place,
             joints,
-            ..chain::limb(chain, program, certificate.map(hash))
+            ..chain::limb(chain, &program, certificate.map(hash))
         };
         self.data.limbs.push(limb);
         self.data.wasm = Some(bytes::file(WASM));

@@ -1,4 +1,4 @@
-/** The drawn solutions: one translucent copy of the limb each, and the target that the user drags. */
+/** The drawn solutions: translucent copies of the limb, and the target that the user drags. */
 
 import { Group, Matrix4 } from "three";
 import { TransformControls } from "three/examples/jsm/controls/TransformControls.js";
@@ -8,17 +8,30 @@ import type { Limb } from "./data";
 import { inverse, multiply, type Frame } from "./pose";
 import type { Stage } from "./stage";
 
-/** Opacity of a translucent copy, and of the highlighted one. */
-const OPACITY = [0.16, 0.6] as const;
+/** Opacity of a translucent copy, and of a highlighted one. */
+const SINGLE = [0.16, 0.6] as const;
+/** The same of copies along arcs; `sum` bounds the sum of all, because they overlap. */
+const ALONG = { faint: 0.07, strong: 0.2, sum: 1.5 };
 
-export class Ghosts {
+/** A translucent copy of the limb. */
+export interface Copy {
+  /** The index of its row in the list of solutions or arcs. */
+  row: number;
+  /** The frames of all links. */
+  frames: Frame[];
+}
+
+export class TranslucentCopies {
   private readonly bodies: Body[] = [];
   /** The copies along a self-motion. */
-  private readonly fan: Body[] = [];
+  private readonly along: Body[] = [];
   private readonly group = new Group();
   private readonly handle = new Group();
   private readonly controls: TransformControls;
   private limb: Limb | undefined;
+  private copies: Copy[] = [];
+  /** The arc that is highlighted while the user points at no row; undefined for single solutions. */
+  private arc: number | undefined;
   private moving = false;
 
   /** `dragged` is called with every dragged target, `holds` when dragging starts and ends. */
@@ -42,28 +55,26 @@ export class Ghosts {
     this.stage.draw();
   }
 
-  /** Shows the solutions of a limb, except the one that the robot has. */
-  show(limb: Limb, target: Frame, frames: Frame[][], taken: number): void {
+  /** Shows copies of a limb, and its target. Copies along arcs have the row of their arc, of which `arc` is highlighted. */
+  show(limb: Limb, target: Frame, copies: Copy[], arc?: number): void {
     if (this.limb !== limb) this.clear();
-    this.limb = limb;
+    [this.limb, this.copies, this.arc] = [limb, copies, arc];
     this.group.visible = this.controls.getHelper().visible = this.controls.enabled = true;
-    while (this.bodies.length < frames.length) this.bodies.push(this.ghost(limb));
-    this.bodies.forEach((body, place) => {
-      body.group.visible = place < frames.length && place !== taken;
-      if (body.group.visible) body.show(frames[place]!);
-    });
-    this.spread([]);
+    this.place(this.bodies, copies.map(({ frames }) => frames));
     this.moving = true;
     matrix(multiply(this.app.frames[limb.base]!, target)).decompose(this.handle.position, this.handle.quaternion, this.handle.scale);
     this.handle.updateMatrixWorld(true);
     this.moving = false;
-    this.stage.draw();
+    this.point(undefined);
   }
 
-  /** Highlights one copy and shows its self-motion; undefined highlights none. */
-  point(place: number | undefined, along: Frame[][] = []): void {
-    this.spread(along);
-    this.bodies.forEach((body, own) => body.fade(OPACITY[own === place ? 1 : 0]));
+  /** Highlights the copies of one row and shows its self-motion; undefined highlights those of the present arc. */
+  point(row: number | undefined, motion: Frame[][] = []): void {
+    this.place(this.along, motion);
+    const along = [Math.min(ALONG.faint, ALONG.sum / this.copies.length), ALONG.strong] as const;
+    const [faint, strong] = this.arc === undefined ? SINGLE : along;
+    const highlighted = row ?? this.arc;
+    this.copies.forEach((copy, place) => this.bodies[place]!.fade(copy.row === highlighted ? strong : faint));
     this.stage.draw();
   }
 
@@ -73,36 +84,40 @@ export class Ghosts {
   }
 
   paint(): void {
-    for (const body of [...this.bodies, ...this.fan]) body.paint("accent");
+    for (const body of [...this.bodies, ...this.along]) body.paint("accent");
   }
 
   private clear(): void {
     this.group.clear();
-    for (const body of [...this.bodies, ...this.fan]) body.dispose();
-    this.bodies.length = this.fan.length = 0;
+    for (const body of [...this.bodies, ...this.along]) body.dispose();
+    this.bodies.length = this.along.length = 0;
   }
 
-  private spread(along: Frame[][]): void {
-    while (this.limb && this.fan.length < along.length) this.fan.push(this.ghost(this.limb));
-    this.fan.forEach((body, place) => {
-      body.group.visible = place < along.length;
-      if (body.group.visible) body.show(along[place]!);
+  /** Shows one of `bodies` at each of `frames`, and hides the others. */
+  private place(bodies: Body[], frames: Frame[][]): void {
+    while (this.limb && bodies.length < frames.length) bodies.push(this.copy(this.limb));
+    bodies.forEach((body, place) => {
+      body.group.visible = place < frames.length;
+      if (body.group.visible) body.show(frames[place]!);
     });
   }
 
-  private ghost(limb: Limb): Body {
+  private copy(limb: Limb): Body {
     const body = new Body(this.app.data.robot, this.app.values, this.links(limb));
-    body.fade(OPACITY[0]);
+    body.fade(SINGLE[0]);
     body.paint("accent");
     this.group.add(body.group);
     return body;
   }
 
-  /** The links that the limb moves. */
+  /** The links that the limb moves while its tip is at the target: those before its last joint. */
   private links(limb: Limb): Set<number> {
     const found = new Set<number>();
     const own = new Set(limb.joints);
-    for (const [place, { parent, child }] of this.app.data.robot.joints.entries()) if (own.has(place) || found.has(parent)) found.add(child);
+    const last = Math.max(...limb.joints);
+    for (const [place, { parent, child }] of this.app.data.robot.joints.entries()) {
+      if (place !== last && (own.has(place) || found.has(parent))) found.add(child);
+    }
     return found;
   }
 
