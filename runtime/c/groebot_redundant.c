@@ -53,7 +53,7 @@ static const gb_real gb_arm_leaps[GB_ARM_LEAPS] = {GB_MERGING_APART, R(1e-3), R(
 
 /* Maximal number of solutions that are waiting for a curve. The number of values of the grid at first. Between two values, so many times the middle
  * is added where the number of solutions changes, or where solutions are close to each other. */
-#define GB_ARM_SEEDS 256
+#define GB_ARM_SEEDS 384
 #define GB_ARM_SCANNED 16
 #define GB_ARM_HALVINGS 2
 /* Starts of Newton's method where there is no solution for any value; maximal numbers of steps and of halvings of a step; maximal length of a step, and of one
@@ -71,7 +71,7 @@ static const gb_real gb_arm_leaps[GB_ARM_LEAPS] = {GB_MERGING_APART, R(1e-3), R(
 /* Solutions for one value are close when no joint differs by more than this. Steps of Newton's method for a root of a cubic. Values of a prismatic joint
  * without limits, relative to the characteristic length. */
 #define GB_ARM_CLOSE R(0.1)
-#define GB_ARM_SEED_STEPS 3
+#define GB_ARM_SEED_STEPS 4
 #define GB_ARM_FARTHEST R(10.0)
 
 /* Where two traces lead to one end point, both are repeated with steps of a quarter of the length, at most so many times. */

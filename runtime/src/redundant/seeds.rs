@@ -5,6 +5,7 @@ use core::f64::consts::{PI, TAU};
 
 use super::approach::{STARTS, approach};
 use super::arm::{Given, MOST_JOINTS, MOST_SECTIONS, Members, Q, Redundant, Section, Target};
+use super::crossing::extrema;
 use super::ends::{Ends, tied_at};
 use super::model::Model;
 use super::step::{ON, Piece};
@@ -13,7 +14,7 @@ use crate::solution::Error;
 use crate::tolerances::{ACCEPTANCE, MERGING};
 
 /// Maximal number of solutions that are waiting for a curve.
-pub(super) const MOST_SEEDS: usize = 256;
+pub(super) const MOST_SEEDS: usize = 384;
 /// The number of values of the grid at first.
 const LEVELS: usize = 16;
 /// Between two values, so many times the middle is added where the number of solutions changes, or where solutions are close to each other.
@@ -25,7 +26,7 @@ const ANY_VALUE: f64 = 1.0;
 /// Solutions for one value are close when no joint differs by more than this (rad, or relative to the characteristic length).
 const CLOSE: f64 = 0.1;
 /// Steps of Newton's method for a root of a cubic.
-const ROOT_STEPS: usize = 3;
+const ROOT_STEPS: usize = 4;
 
 /// Solutions of the list that have one value of a joint: from `first` on, so many.
 #[derive(Clone, Copy)]
@@ -88,18 +89,6 @@ impl Seeds {
         target: &Target,
         ends: &mut Ends,
     ) -> Result<(), Error> {
-        let joint = model.arm.grid;
-        let [low, high] = range(model, joint);
-        let width = (high - low) / LEVELS as f64;
-        let mut before: Option<Level> = None;
-        for k in 0..LEVELS {
-            let level =
-                self.solve(robot, model, target, Section { joint, value: low + (k as f64 + 0.5) * width }, ends)?;
-            if let Some(before) = before {
-                self.between(robot, model, target, [before, level], ends)?;
-            }
-            before = Some(level);
-        }
         for section in &model.arm.sections[..model.arm.section_count] {
             let Section { joint, value } = *section;
             let value = value / model.units[joint];
@@ -111,6 +100,18 @@ impl Seeds {
             if model.turns[joint] && model.arm.given[joint] == Given::Solved && joint != model.arm.grid {
                 self.solve(robot, model, target, Section { joint, value: ANY_VALUE }, ends)?;
             }
+        }
+        let joint = model.arm.grid;
+        let [low, high] = range(model, joint);
+        let width = (high - low) / LEVELS as f64;
+        let mut before: Option<Level> = None;
+        for k in 0..LEVELS {
+            let level =
+                self.solve(robot, model, target, Section { joint, value: low + (k as f64 + 0.5) * width }, ends)?;
+            if let Some(before) = before {
+                self.between(robot, model, target, [before, level], ends)?;
+            }
+            before = Some(level);
         }
         Ok(())
     }
@@ -142,7 +143,7 @@ impl Seeds {
         ends: &mut Ends,
     ) -> Result<(), Error> {
         for _ in 0..HALVINGS {
-            if self.added + Members::ROOM > MOST_SEEDS {
+            if self.added + 2 * Members::ROOM > MOST_SEEDS {
                 return Ok(());
             }
             let differ = low.solutions != high.solutions;
@@ -224,8 +225,7 @@ impl Seeds {
             if count == 0 {
                 continue;
             }
-            let (from, to) = (piece.from.x[joint], piece.to.x[joint]);
-            let (least, greatest) = (f64::min(from, to) - ACCEPTANCE.input, f64::max(from, to) + ACCEPTANCE.input);
+            let [least, greatest] = bounds(piece, joint);
             if model.turns[joint] {
                 value += TAU * Arithmetic::ceil((least - value) / TAU);
             }
@@ -235,18 +235,26 @@ impl Seeds {
         }
     }
 
-    /// Removes the solutions of a group on a piece of a curve.
+    /// Removes the solutions of a group on a piece of a curve, which may pass the value several times.
     fn pass_group(&mut self, model: &Model<'_>, piece: &Piece, value: f64, number: usize) {
         let Group { joint, first, mut count, .. } = self.groups[number];
-        let x = on(piece, joint, value);
-        let mut k = first;
-        while k < first + count {
-            if model.are_close(&x, &self.list[k], ON * piece.length + MERGING.joints) {
-                count -= 1;
-                self.list[k] = self.list[first + count];
-            } else {
-                k += 1;
+        let [c, b, a] = piece.cubic(joint);
+        let mut low = 0.0;
+        for high in extrema(a, b, c) {
+            if high <= low {
+                continue;
             }
+            let x = on(piece, joint, value, [low, high]);
+            let mut k = first;
+            while k < first + count {
+                if model.are_close(&x, &self.list[k], ON * piece.length + MERGING.joints) {
+                    count -= 1;
+                    self.list[k] = self.list[first + count];
+                } else {
+                    k += 1;
+                }
+            }
+            low = high;
         }
         self.groups[number].count = count;
     }
@@ -270,16 +278,27 @@ impl Seeds {
     }
 }
 
-/// The point of the piece where a joint has a certain value.
-fn on(piece: &Piece, joint: usize, value: f64) -> Q {
-    let (from, to) = (piece.from.x[joint], piece.to.x[joint]);
-    let mut share = if from == to { 0.5 } else { (value - from) / (to - from) };
+/// Bounds of a joint's values on a piece: those of the control points of its cubic.
+fn bounds(piece: &Piece, joint: usize) -> [f64; 2] {
+    let third = piece.length / 3.0;
+    let (first, last) = (piece.from.x[joint], piece.to.x[joint]);
+    let (second, third) = (first + third * piece.from.t[joint], last - third * piece.to.t[joint]);
+    let (low, high) = (f64::min(f64::min(second, third), last), f64::max(f64::max(second, third), last));
+    [f64::min(first, low) - ACCEPTANCE.input, f64::max(first, high) + ACCEPTANCE.input]
+}
+
+/// The point of a part of the piece, along which a joint increases or decreases, where the joint has a certain value; else an end of the part.
+fn on(piece: &Piece, joint: usize, value: f64, [low, high]: [f64; 2]) -> Q {
     let [c, b, a] = piece.cubic(joint);
+    let at = |share: f64| piece.from.x[joint] + share * (c + share * (b + share * a)) - value;
+    let (first, last) = (at(low), at(high));
+    let within = |share: f64| f64::min(f64::max(share, low), high);
+    let mut share =
+        if first == last { 0.5 * (low + high) } else { within(low - first * (high - low) / (last - first)) };
     for _ in 0..ROOT_STEPS {
         let slope = c + share * (2.0 * b + share * 3.0 * a);
-        let miss = from + share * (c + share * (b + share * a)) - value;
         if slope != 0.0 {
-            share = f64::min(f64::max(share - miss / slope, 0.0), 1.0);
+            share = within(share - at(share) / slope);
         }
     }
     piece.at(share)

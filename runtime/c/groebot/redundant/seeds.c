@@ -125,7 +125,7 @@ static int gb_arm_between(gb_arm_seeds *seeds, const gb_arm_scan *scan, gb_arm_l
     for (int k = 0; k < GB_ARM_HALVINGS; k++) {
         gb_arm_level middle;
         const bool differ = low.solutions != high.solutions;
-        if (seeds->added + GB_MOST_MEMBERS > GB_ARM_SEEDS || !(differ || (low.has_close && high.has_close))) {
+        if (seeds->added + 2 * GB_MOST_MEMBERS > GB_ARM_SEEDS || !(differ || (low.has_close && high.has_close))) {
             return 0;
         }
         const int code = gb_arm_add_level(seeds, scan, scan->model->arm->grid, R(0.5) * (low.value + high.value), &middle);
@@ -169,50 +169,74 @@ static int gb_arm_find_seeds(gb_arm_seeds *seeds, const gb_arm_scan *scan)
     const size_t joint = scan->model->arm->grid;
     gb_real range[2];
     gb_arm_level before = {R(0.0), 0, false}, level = before;
+    int code = gb_arm_find_sections(seeds, scan);
     gb_arm_range(scan->model, joint, range);
     const gb_real width = (range[1] - range[0]) / (gb_real)GB_ARM_SCANNED;
-    for (int k = 0; k < GB_ARM_SCANNED; k++) {
-        int code = gb_arm_add_level(seeds, scan, joint, range[0] + ((gb_real)k + R(0.5)) * width, &level);
+    for (int k = 0; k < GB_ARM_SCANNED && code == 0; k++) {
+        code = gb_arm_add_level(seeds, scan, joint, range[0] + ((gb_real)k + R(0.5)) * width, &level);
         if (code == 0 && k > 0) {
             code = gb_arm_between(seeds, scan, before, level);
         }
-        if (code < 0) {
-            return code;
-        }
         before = level;
     }
-    return gb_arm_find_sections(seeds, scan);
+    return code;
 }
 
-/* The point of the piece where a joint has a certain value. */
-static void gb_arm_seed_on(const gb_arm_piece *piece, size_t joint, gb_real value, gb_real *x)
+/* Bounds of a joint's values on a piece: those of the control points of its cubic. */
+static void gb_arm_bounds(const gb_arm_piece *piece, size_t joint, gb_real *bounds)
 {
-    const gb_real from = piece->from.x[joint], to = piece->to.x[joint];
-    gb_real share = from == to ? R(0.5) : (value - from) / (to - from), c[3];
-    gb_arm_cubic(piece, joint, c);
+    const gb_real share = piece->length / R(3.0), first = piece->from.x[joint], last = piece->to.x[joint];
+    const gb_real second = first + share * piece->from.t[joint], third = last - share * piece->to.t[joint];
+    const gb_real low = gb_arm_min(gb_arm_min(second, third), last), high = gb_arm_max(gb_arm_max(second, third), last);
+    bounds[0] = gb_arm_min(first, low) - GB_ACCEPTANCE_INPUT;
+    bounds[1] = gb_arm_max(first, high) + GB_ACCEPTANCE_INPUT;
+}
+
+/* The joint's value at a share of the piece, from a certain one; the cubic is without its constant coefficient. */
+GB_INLINE gb_real gb_arm_seed_miss(const gb_real *c, gb_real from, gb_real value, gb_real share)
+{
+    return from + share * (c[0] + share * (c[1] + share * c[2])) - value;
+}
+
+/* The share of a part of the piece, from `low` to `high`, along which a joint increases or decreases, where the joint has a certain value; else an end of the
+ * part. */
+static gb_real gb_arm_seed_share(const gb_real *c, gb_real from, gb_real value, gb_real low, gb_real high)
+{
+    const gb_real first = gb_arm_seed_miss(c, from, value, low), last = gb_arm_seed_miss(c, from, value, high);
+    gb_real share = R(0.5) * (low + high);
+    if (first != last) {
+        share = gb_arm_min(gb_arm_max(low - first * (high - low) / (last - first), low), high);
+    }
     for (int k = 0; k < GB_ARM_SEED_STEPS; k++) {
         const gb_real slope = c[0] + share * (R(2.0) * c[1] + share * R(3.0) * c[2]);
-        const gb_real miss = from + share * (c[0] + share * (c[1] + share * c[2])) - value;
         if (slope != R(0.0)) {
-            share = gb_arm_share(share - miss / slope);
+            share = gb_arm_min(gb_arm_max(share - gb_arm_seed_miss(c, from, value, share) / slope, low), high);
         }
     }
-    gb_arm_piece_at(piece, share, x);
+    return share;
 }
 
-/* Removes the solutions of a group on a piece of a curve. */
+/* Removes the solutions of a group on a piece of a curve, which may pass the value several times. */
 static void gb_arm_pass_group(gb_arm_seeds *seeds, const gb_arm_model *model, const gb_arm_piece *piece, gb_real value, gb_arm_group *group)
 {
-    gb_real x[GB_MOST_ARM_JOINTS];
-    size_t k = group->first;
-    gb_arm_seed_on(piece, group->joint, value, x);
-    while (k < group->first + group->count) {
-        if (gb_arm_are_close(model, x, seeds->list[k], GB_ARM_ON * piece->length + GB_MERGING_JOINTS)) {
-            group->count--;
-            memmove(seeds->list[k], seeds->list[group->first + group->count], sizeof seeds->list[k]);
-        } else {
-            k++;
+    gb_real c[3], ends[3], x[GB_MOST_ARM_JOINTS], low = R(0.0);
+    gb_arm_cubic(piece, group->joint, c);
+    gb_arm_extrema(c[2], c[1], c[0], ends);
+    for (int part = 0; part < 3; part++) {
+        size_t k = group->first;
+        if (ends[part] <= low) {
+            continue;
         }
+        gb_arm_piece_at(piece, gb_arm_seed_share(c, piece->from.x[group->joint], value, low, ends[part]), x);
+        while (k < group->first + group->count) {
+            if (gb_arm_are_close(model, x, seeds->list[k], GB_ARM_ON * piece->length + GB_MERGING_JOINTS)) {
+                group->count--;
+                memmove(seeds->list[k], seeds->list[group->first + group->count], sizeof seeds->list[k]);
+            } else {
+                k++;
+            }
+        }
+        low = ends[part];
     }
 }
 
@@ -221,16 +245,15 @@ static void gb_arm_pass_seeds(gb_arm_seeds *seeds, const gb_arm_model *model, co
 {
     for (size_t number = 0; number < seeds->values; number++) {
         const size_t joint = seeds->groups[number].joint;
-        gb_real value = seeds->groups[number].value;
+        gb_real value = seeds->groups[number].value, bounds[2];
         if (seeds->groups[number].count == 0) {
             continue;
         }
-        const gb_real from = piece->from.x[joint], to = piece->to.x[joint];
-        const gb_real least = gb_arm_min(from, to) - GB_ACCEPTANCE_INPUT, greatest = gb_arm_max(from, to) + GB_ACCEPTANCE_INPUT;
+        gb_arm_bounds(piece, joint, bounds);
         if (model->turns[joint]) {
-            value += GB_TAU * gb_ceiling((least - value) / GB_TAU);
+            value += GB_TAU * gb_ceiling((bounds[0] - value) / GB_TAU);
         }
-        if (value >= least && value <= greatest) {
+        if (value >= bounds[0] && value <= bounds[1]) {
             gb_arm_pass_group(seeds, model, piece, value, &seeds->groups[number]);
         }
     }
