@@ -10,6 +10,7 @@ mod formats;
 mod placed;
 mod redundant;
 mod redundant_batch;
+mod redundant_closest;
 mod redundant_corpus;
 mod redundant_scanned;
 mod refused;

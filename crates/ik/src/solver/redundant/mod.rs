@@ -7,6 +7,7 @@
 mod arcs;
 mod batch;
 mod best;
+mod closest;
 mod limits;
 mod path;
 mod sampled;

@@ -119,6 +119,14 @@ impl ScanningSolver {
         self.zero.target_of_numbers(numbers)
     }
 
+    /// Checks limits of [`ScanningSolver::any_within`].
+    ///
+    /// # Errors
+    /// As [`RedundantSolver::limits_within`].
+    pub(crate) fn check_limits(&self, limits: &[[f64; 2]]) -> Result<()> {
+        self.scan_limits(Some(limits)).map(drop)
+    }
+
     /// One solution of `target` within limits, by no criterion. `limits` has one pair per joint of the chain and narrows the described ones.
     ///
     /// # Errors
