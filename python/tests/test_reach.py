@@ -82,12 +82,21 @@ def test_described_limits_have_two_names():
         reach_map(Solver.named("puma"), GRID, 5, limits=True)
 
 
-def test_limits_may_be_those_of_some_joints(ur5):
-    limits = np.tile([-2 * np.pi, 2 * np.pi], (6, 1))
+def test_limits_may_be_those_of_some_joints(tmp_path, ur5):
+    limits = ur5.limits.copy()
     limits[2] = 0.0, 2.0
     made = reach_map(ur5, GRID, 30, limits={ur5.joints[2]: (0.0, 2.0)})
     np.testing.assert_array_equal(made.answers, reach_map(ur5, GRID, 30, limits=limits).answers)
     assert made.limited and 0 < made.answers.sum() < reach_map(ur5, GRID, 30).answers.sum()
+    need("pyarrow")
+    from groebot import blocks
+    from groebot.reach import Reach, read
+
+    work = Reach.of(ur5, GRID, 30, limits={ur5.joints[2]: (0.0, 2.0)})
+    blocks.run(work, tmp_path / "out", 7)
+    np.testing.assert_array_equal(read(tmp_path / "out", work).answers, made.answers)
+    with pytest.raises(BadValueError, match="there is no joint `elbow`"):
+        Reach.of(ur5, GRID, 30, limits={"elbow": (0.0, 1.0)})
 
 
 def test_a_redundant_arm_counts_poses_within_limits(panda):

@@ -218,6 +218,15 @@ impl ScanningSolver {
         self.best(target, limits, &Criterion::nearest(q0.to_vec()))
     }
 
+    /// The largest magnitude among the equations' values of `target` at joint values `q` of the chain, as [`RedundantSolver::residual`].
+    pub fn residual(&self, target: &ArmTarget, q: &[f64]) -> f64 {
+        if q.len() != self.joints().len() {
+            return f64::NAN;
+        }
+        let row = |joints: &[usize]| -> Vec<f64> { joints.iter().map(|&joint| q[joint]).collect() };
+        self.at(&row(&self.scanned)).residual(target, &row(&self.zero.own))
+    }
+
     /// The best solution with the scanned joints held.
     fn sample(
         &self,
