@@ -73,7 +73,7 @@ class Ask:
         progress: Callable[[str, int, int], object] | None = None,
     ) -> dict[str, Any]:
         """The columns of the grid points from `start` to before `stop`, and the number of orientations."""
-        limits = np.asarray(self.limits, np.float64) if isinstance(self.limits, list) else self.limits
+        limits: _Limits | None = np.asarray(self.limits, np.float64) if isinstance(self.limits, list) else self.limits
         given = list(self.given)
         return _reach(solver, self.axes, self.orientations, self.measure, limits, given, self.seed, start, stop, threads, progress)
 

@@ -15,8 +15,8 @@ use crate::batch::reason;
 use crate::errors::{bad_value, raised, unsupported};
 use crate::redundant::{self, arm, joint_values, lacks_given};
 use crate::sink::Status;
-use crate::solver::{Solver, chain};
-use crate::stored::Stored;
+use crate::solver::Solver;
+use crate::stored::{Stored, chain};
 use crate::work::{threads, watched};
 
 /// A kernel as an [`InverseKinematics`] solver.

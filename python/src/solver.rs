@@ -13,7 +13,7 @@ use pyo3::types::{PyDict, PyList, PyTuple};
 use crate::arrays::{self, Numbers};
 use crate::choose::nearest_first;
 use crate::closest;
-use crate::errors::{bad_value, raised, unsupported};
+use crate::errors::{bad_value, raised};
 use crate::kernel::Answer;
 use crate::many::{self, Wanted};
 use crate::path::Wishes;
@@ -396,14 +396,4 @@ impl Solver {
             Err(_) => arrays::limits(&Numbers::of(limits)?, self.0.program.joints.len()).map(Some),
         }
     }
-}
-
-/// The chain of a solver.
-///
-/// # Errors
-/// `GroebotError` of the kind `unsupported` for a solver without one.
-pub fn chain(stored: &Stored) -> PyResult<&groebot::kinematics::Chain> {
-    stored.chain.as_ref().ok_or_else(|| {
-        unsupported("this solver was read without the chain that it is of; load the whole folder of its derivation")
-    })
 }

@@ -245,3 +245,15 @@ fn target_shape(program: &Program) -> TargetShape {
     let rotation = rotations.next().filter(|_| rotations.next().is_none());
     TargetShape { own, given, rotation, is_pose: own == 12 && rotation == Some(3) }
 }
+
+/// The chain of a solver.
+///
+/// # Errors
+/// `GroebotError` of the kind `unsupported` for a solver without one.
+pub fn chain(stored: &Stored) -> pyo3::PyResult<&Chain> {
+    stored.chain.as_ref().ok_or_else(|| {
+        crate::errors::unsupported(
+            "this solver was read without the chain that it is of; load the whole folder of its derivation",
+        )
+    })
+}

@@ -76,7 +76,8 @@ impl Request {
     /// # Errors
     /// [`ErrorKind::BadValue`] if the description has no limits at all.
     pub fn described(program: &Program) -> Result<Vec<[f64; 2]>> {
-        let limits = program.limits();
+        let redundancy = program.redundancy.as_deref();
+        let limits = redundancy.map_or_else(|| program.limits(), |redundancy| redundancy.limit_pairs());
         if limits.iter().flatten().all(|limit| limit.is_infinite()) {
             let text = format!("{}: no limits are described; give limits", program.name);
             return Err(Error::new(ErrorKind::BadValue, text));

@@ -11,6 +11,7 @@ mod closest;
 mod limits;
 mod path;
 mod sampled;
+mod scan_samples;
 mod scanned;
 mod scanned_path;
 mod solver;
