@@ -2,8 +2,8 @@
 
 The solutions of a target are curves. Their parts within the limits are arcs. The functions below are methods of `Solver` and `PlacedSolver`.
 
-Of an arm with two to four joints more, the ranges of some joints are scanned (`Solver.scanned`). `any_within` and `best` then search the samples of the scan, and
-miss narrow ranges of solutions. There are no arcs, optima and batches: these methods raise an error of the kind `unsupported`.
+Of an arm with two to four joints more, the ranges of some joints are scanned (`Solver.scanned`). `any_within` and `best` then search the samples of the scan,
+and miss narrow ranges of solutions. There are no arcs, optima and batches: these methods raise an error of the kind `unsupported`.
 """
 
 from __future__ import annotations
@@ -188,8 +188,8 @@ def any_within_batch(
 
 
 def arcs(self: Solver | PlacedSolver, target: _Target, *, limits: _Limits | None = None) -> Arcs:
-    """Returns all arcs of solutions of a redundant solver within limits. Arguments and errors are those of `any_within`; an error of the kind `unsupported` with
-    scanned joints."""
+    """Returns all arcs of solutions of a redundant solver within limits. Arguments and errors are those of `any_within`; an error of the kind `unsupported`
+    with scanned joints."""
     return _arcs(self, target, limits)
 
 

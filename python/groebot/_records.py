@@ -35,8 +35,8 @@ class Closest:
     angle: float
     """The angle between `reached` and the target [rad]."""
     reachable: bool
-    """Whether the target is reachable, within the limits if these were given. `q` is then one of its solutions. Of a redundant solver, false does not prove that
-    the target is out of reach."""
+    """Whether the target is reachable, within the limits if these were given. `q` is then one of its solutions. Of a redundant solver, false does not prove
+    that the target is out of reach."""
     is_minimum: bool
     """Whether `q` is a local minimum of the error, by its first and second derivatives."""
     starts: int

@@ -102,7 +102,8 @@ impl Arc {
 
     /// Raises an exception, because an arc belongs to its solver.
     fn __reduce__(&self) -> PyResult<()> {
-        let text = "an Arc cannot be pickled: it refers to its solver; pickle the solver and the target, or the joint values of `sample`";
+        let text = "an Arc cannot be pickled: it refers to its solver; \
+                    pickle the solver and the target, or the joint values of `sample`";
         Err(PyTypeError::new_err(text))
     }
 

@@ -56,7 +56,8 @@ pub fn arm(stored: &Stored) -> PyResult<&RedundantSolver> {
         match stored.scanned()[..] {
         [] => "this solver is not redundant: `solve` returns all its solutions. Derive a chain with one joint more than its task determines, without `given`".to_owned(),
         ref scanned => format!(
-            "the solutions of this solver are no curves: {} is scanned. There are no arcs, optima or batches; use `solve`, `any_within`, `best`, `nearest` or `solve_path`",
+            "the solutions of this solver are no curves: {} is scanned. There are no arcs, optima or batches; \
+             use `solve`, `any_within`, `best`, `nearest` or `solve_path`",
             scanned.join(", ")
         ),
     }

@@ -120,8 +120,8 @@ impl Solver {
         self.0.program.redundancy.is_some()
     }
 
-    /// The names of the joints whose ranges are scanned, of an arm with two to four joints more than its task determines; empty for other solvers. Then `solve`,
-    /// `any_within`, `best`, `nearest`, `solve_path` and `closest` use samples of these joints' values: completeness is that of the scan.
+    /// The names of the joints whose ranges are scanned, of an arm with two to four joints more than its task determines; empty for other solvers. Then
+    /// `solve`, `any_within`, `best`, `nearest`, `solve_path` and `closest` use samples of these joints' values: completeness is that of the scan.
     #[getter]
     fn scanned(&self) -> Vec<&str> {
         self.0.scanned()
@@ -147,8 +147,8 @@ impl Solver {
     /// those of the description. With `q0` (joints,), each angle is moved by whole turns to the nearest value, and the nearest solution is the first one.
     ///
     /// A redundant solver returns the best solution of each arc within the described limits as `groebot.Solutions`: by the margin to the limits, with `q0` by
-    /// the distance to it. `limits` can only narrow the described ones. Without a solution, the list is empty and has a `reason`. With `scanned` joints, the list
-    /// has the best solution of the scan only, which misses narrow ranges of solutions.
+    /// the distance to it. `limits` can only narrow the described ones. Without a solution, the list is empty and has a `reason`. With `scanned` joints, the
+    /// list has the best solution of the scan only, which misses narrow ranges of solutions.
     #[pyo3(signature = (target, *, q0=None, given=None, limits=None))]
     pub fn solve<'py>(
         &self,
@@ -198,8 +198,8 @@ impl Solver {
     /// `targets` has the shape (N, 4, 4), (N, 12), (N, 7), or (N, numbers of `inputs`). `given` has the shape (given joints,) or (N, given joints). With
     /// `limits`, only solutions are kept that are within them after whole turns. With `near`, of shape (joints,) or (N, joints), only the nearest solution of
     /// each target is kept. `out`, of shape (rows, joints), receives the joint values. Invalid targets are reported in `status`; with `strict` they raise an
-    /// exception. `threads` is by default the number of processors. A redundant solver returns for each target what `solve` returns; with `scanned` joints there
-    /// are no batches.
+    /// exception. `threads` is by default the number of processors. A redundant solver returns for each target what `solve` returns; with `scanned` joints
+    /// there are no batches.
     #[pyo3(signature = (targets, *, given=None, layout="ragged", limits=None, near=None, out=None, dtype=None, threads=None, strict=false))]
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     pub fn solve_batch<'py>(

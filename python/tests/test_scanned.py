@@ -44,7 +44,7 @@ def test_one_joint_is_scanned(rail, panda):
 
 def test_solutions_of_the_scan_reach_the_target(rail, random):
     solver, reach = rail
-    for q in random.uniform(solver.limits[:, 0], solver.limits[:, 1], (5, 8)):
+    for q in random.uniform(solver.limits[:, 0], solver.limits[:, 1], (1, 8)):
         target = reach(q)
         within, solutions, best = solver.any_within(target), solver.solve(target), solver.best(target)
         assert within.reason is None and not within.is_unsure and len(solutions) == 1 and solutions.is_unsure
@@ -82,18 +82,18 @@ def test_narrower_limits_and_reasons(rail):
 
 def test_a_path_moves_the_rail(rail):
     solver, reach = rail
-    route = READY + np.linspace(0, 1, 9)[:, None] * [0.4, 0.2, 0.1, -0.2, 0.2, 0.1, 0.2, -0.2]
+    route = READY + np.linspace(0, 0.5, 4)[:, None] * [0.4, 0.2, 0.1, -0.2, 0.2, 0.1, 0.2, -0.2]
     poses = np.stack([reach(q) for q in route])
     path = solver.solve_path(poses, READY)
-    assert path.jumps == [] and path.arcs is None and path.q.shape == (9, 8)
+    assert path.jumps == [] and path.arcs is None and path.q.shape == (4, 8)
     for pose, q in zip(poses, path.q):
         assert_solves(rail, pose, q)
     assert np.abs(np.diff(path.q, axis=0)).max() <= 0.5 + 1e-9
-    held = solver.solve_path(poses[:3], limits={"rail": (0.3, 0.5)})
+    held = solver.solve_path(poses[:2], limits={"rail": (0.3, 0.5)})
     assert (held.q[:, 0] >= 0.3 - 1e-9).all() and (held.q[:, 0] <= 0.5 + 1e-9).all()
-    poses[2, 0, 3] += 4.0
-    with pytest.raises(BadValueError, match="target 3.*unreachable|target 2.*unreachable"):
-        solver.solve_path(poses[:4])
+    poses[1, 0, 3] += 4.0
+    with pytest.raises(BadValueError, match="target.*unreachable"):
+        solver.solve_path(poses[:2])
 
 
 def test_the_closest_joint_values_move_the_rail(rail):
@@ -114,18 +114,17 @@ def test_the_closest_joint_values_move_the_rail(rail):
 
 def test_a_map_counts_poses_within_limits(rail):
     solver, reach = rail
-    grid = {"x": (-0.2, 0.4, 2), "y": (-0.3, 0.7, 2), "z": 0.9}
-    made = groebot.reach_map(solver, grid, 4, "limits")
-    assert made.limited and 0 < made.reached.sum() <= 16 and (made.open == 0).all()
-    far = groebot.reach_map(solver, {"x": 4.0, "y": 4.0, "z": 0.9}, 4, "limits")
+    made = groebot.reach_map(solver, {"x": (-0.2, 0.4, 2), "y": 0.3, "z": 0.9}, 2, "limits")
+    assert made.limited and 0 < made.reached.sum() <= 4 and (made.open == 0).all()
+    far = groebot.reach_map(solver, {"x": 4.0, "y": 4.0, "z": 0.9}, 1, "limits")
     assert far.reached.sum() == 0
 
 
 def test_there_are_no_arcs_and_the_error_names_other_methods(rail):
     solver, reach = rail
     target = reach(READY)
-    calls = [(solver.arcs, target), (solver.optima, target), *((call, target[None]) for call in (solver.any_within_batch, solver.best_batch, solver.solve_batch))]
-    for call, own in calls:
+    batches = [solver.any_within_batch, solver.best_batch, solver.solve_batch]
+    for call, own in [(solver.arcs, target), (solver.optima, target), *((call, target[None]) for call in batches)]:
         with pytest.raises(GroebotError, match=f"{solver.scanned[0]} is scanned.*`any_within`, `best`, `nearest` or `solve_path`") as raised:
             call(own)
         assert raised.value.kind == "unsupported"

@@ -51,8 +51,8 @@ Angles of solutions are moved into their joint's limits by whole turns where pos
 without a solution is not an error. The output is \"unreachable: no solution\", an empty list of
 solutions (JSON), or a row with 0 solutions (CSV). With --closest it has the joint values with the
 least error, too: distance^2 + (2 LENGTH sin(angle / 2))^2. They do not respect joint limits, except
-those of a redundant arm without the value of its given joint. The exit status is 0 as well. For chains that share actuators, text and JSON of
-a --target name the chain that fails, and the reason.";
+those of a redundant arm without the value of its given joint. The exit status is 0 as well. For
+chains that share actuators, text and JSON of a --target name the chain that fails, and the reason.";
 
 /// Computes all solutions of targets with a derived solver
 #[derive(clap::Args)]

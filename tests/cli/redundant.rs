@@ -145,7 +145,7 @@ fn wrong_options_are_refused() {
     assert!(refused(&["solve", &planar, "--target", "0.6,0.3", "--limits", "Shoulder=0,1"]).contains("redundant"));
 }
 
-/// Shoulder and wrist of an iiwa 14 are 0.82 m apart when it is stretched, and the flange is 0.126 m beyond the wrist. The target's axis points at the shoulder.
+/// Shoulder and wrist of an iiwa 14 are 0.82 m apart when it is stretched, and the flange is 0.126 m beyond the wrist. The shoulder is at a height of 0.36 m.
 #[test]
 fn closest_joint_values_of_a_target_out_of_reach() {
     let folder = text(arm().folder.path());

@@ -33,7 +33,8 @@ impl AnyWithin {
         }
         if request.measure != Measure::Limits {
             let text = format!(
-                "targets of {} have curves of solutions: the measure `{}` needs the values of {} (given); without them the measure `limits` is allowed",
+                "targets of {} have curves of solutions: the measure `{}` needs the values of {} (given); \
+                 without them the measure `limits` is allowed",
                 program.name,
                 request.measure.name(),
                 program.given_names().join(", ")
