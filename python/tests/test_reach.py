@@ -168,7 +168,7 @@ def test_what_is_no_grid_is_refused(ur5, grid, message):
 
 
 def test_wrong_questions_are_refused(ur5):
-    with pytest.raises(groebot.GroebotError, match="no measure"):
+    with pytest.raises(groebot.GroebotError, match="not a measure"):
         reach_map(ur5, GRID, 10, "weight")
     for orientations in (0, -1, 10**30, 2.5):
         with pytest.raises(BadValueError, match="orientations"):
