@@ -136,10 +136,10 @@ pub mod dynamics {
 /// Derived solvers: their programs, targets in batches, and solutions.
 pub mod solver {
     pub use groebot_ik::solver::{
-        About, Batch, Block, Case, Checks, ClosedSearch, Closest, ClosestOptions, Condition, Described, Following,
-        Forward, GivenJoint, Guard, Input, Instruction, Joint, JointValue, MAX_JOINTS, Nearest, Operand, Operation,
-        Pairs, ParameterRule, Pivot, PlacedSolver, Placement, Preference, Program, Reached, Redundancy, RedundantPart,
-        Rule, Section, Short, Solved, Solver, Step, TaskPlacement, TipTask, Unit,
+        About, Batch, Block, Case, Checks, ClosedSearch, Closest, ClosestOptions, Condition, Described, ErrorWeights,
+        Following, Forward, GivenJoint, Guard, Input, Instruction, Joint, JointValue, MAX_JOINTS, Nearest, Operand,
+        Operation, Pairs, ParameterRule, Pivot, PlacedSolver, Placement, Preference, Program, Reached, Redundancy,
+        RedundantPart, Rule, Section, Short, Solved, Solver, Step, TaskPlacement, TipTask, Unit,
     };
     /// All solutions within limits of a chain with one joint more than its task determines.
     pub mod redundant {

@@ -1,6 +1,9 @@
 """Arms with one joint more than their task determines: all solutions within limits.
 
 The solutions of a target are curves. Their parts within the limits are arcs. The functions below are methods of `Solver` and `PlacedSolver`.
+
+Of an arm with two to four joints more, the ranges of some joints are scanned (`Solver.scanned`). `any_within` and `best` then search the samples of the scan,
+and miss narrow ranges of solutions. There are no arcs, optima and batches: these methods raise an error of the kind `unsupported`.
 """
 
 from __future__ import annotations
@@ -15,7 +18,7 @@ import numpy.typing as npt
 from ._arrays import numbers
 from ._batch import Floats, Status
 from ._errors import BadValueError
-from ._groebot import Arc, PlacedSolver, Solution, Solver, _any_within, _any_within_batch, _arcs, _best_batch, _optima
+from ._groebot import Arc, PlacedSolver, Solution, Solver, _any_within, _any_within_batch, _arcs, _best, _best_batch, _optima
 
 if TYPE_CHECKING:
     from ._groebot import _Criterion, _Limits, _Target
@@ -50,7 +53,7 @@ class Solutions(list[Solution]):
     reason: Reason | None
     """The reason why there is no solution within limits."""
     is_unsure: bool
-    """Whether other arcs may exist, or an arc is unsure."""
+    """Whether other arcs may exist, or an arc is unsure. With scanned joints, it is true."""
 
     def __init__(self, solutions: Iterable[Solution] = (), reason: Reason | None = None, is_unsure: bool = False) -> None:
         super().__init__(solutions)
@@ -66,7 +69,7 @@ class Within:
     reason: Reason | None
     """None with a solution."""
     is_unsure: bool
-    """Whether a solution may have been missed, as far as it is known; false with a solution."""
+    """Whether a solution may have been missed, as far as it is known; false with a solution. With scanned joints, it is true without a solution."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,9 +122,9 @@ class Best:
     value: float
     """The value of the criterion: a margin, the manipulability, a distance, or a difference. A margin is infinite if no joint is limited."""
     arc: int
-    """The index of its arc among those of `Solver.arcs`."""
+    """The index of its arc among those of `Solver.arcs`; -1 with scanned joints."""
     s: float
-    """Its distance from the start of the arc, in the unit of `Arc.length`."""
+    """Its distance from the start of the arc, in the unit of `Arc.length`; NaN with scanned joints."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -165,8 +168,9 @@ def any_within(self: Solver | PlacedSolver, target: _Target, *, limits: _Limits 
     """Returns one solution of a redundant solver within limits, by no criterion, or the reason why there is none.
 
     `target` is that of `solve`, without the value of the given joint. Solutions are within the described limits. `limits` can only narrow them: an array
-    (joints, 2), or a dict of joint names and pairs. `BadValueError` for a wrong target or limits; an error of the kind `unsupported` for a solver that is not
-    redundant.
+    (joints, 2), or a dict of joint names and pairs. With scanned joints, completeness is that of the scan: 33 values of one joint are tried (132 of two, 528 of
+    three), then values next to solutions beyond limits. `BadValueError` for a wrong target or limits; an error of the kind `unsupported` for a solver that is
+    not redundant.
     """
     return _any_within(self, target, limits)
 
@@ -184,7 +188,8 @@ def any_within_batch(
 
 
 def arcs(self: Solver | PlacedSolver, target: _Target, *, limits: _Limits | None = None) -> Arcs:
-    """Returns all arcs of solutions of a redundant solver within limits. Arguments and errors are those of `any_within`."""
+    """Returns all arcs of solutions of a redundant solver within limits. Arguments and errors are those of `any_within`; an error of the kind `unsupported`
+    with scanned joints."""
     return _arcs(self, target, limits)
 
 
@@ -203,11 +208,11 @@ def best(
 
     Criteria: `margin`, the greatest least distance of a joint to its limits [rad]; `relative_margin`, the same divided by half of the range; `nearest`, the
     least distance to `q0` (joints,) with `weights` (joints,) of the squares; `manipulability`, the greatest one; `change`, the least difference of `joint` (name
-    or index) from `value`. Lengths in margins and in the manipulability are divided by the characteristic length. Other arguments and errors are those of
-    `any_within`.
+    or index) from `value`. Lengths in margins and in the manipulability are divided by the characteristic length. With scanned joints, it is the best of the
+    samples, refined by golden section search, and the manipulability is that of the other joints. Other arguments and errors are those of `any_within`.
     """
-    found = optima(self, target, criterion, q0=q0, weights=weights, joint=joint, value=value, limits=limits)
-    return found[0] if found else None
+    options = {"q0": q0, "weights": weights, "joint": joint, "value": value}
+    return _best(self, target, limits, _passed(self.joints, criterion, options, False))
 
 
 def optima(
@@ -221,7 +226,8 @@ def optima(
     value: float | None = None,
     limits: _Limits | None = None,
 ) -> list[Best]:
-    """Returns the local optima on all arcs, ends included, the best ones first, at most 128. Arguments and errors are those of `best`."""
+    """Returns the local optima on all arcs, ends included, the best ones first, at most 128. Arguments and errors are those of `best`; an error of the kind
+    `unsupported` with scanned joints."""
     options = {"q0": q0, "weights": weights, "joint": joint, "value": value}
     return _optima(self, target, limits, _passed(self.joints, criterion, options, False))
 

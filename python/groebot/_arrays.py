@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -20,6 +21,16 @@ def numbers(given: Any) -> tuple[npt.NDArray[np.float64], bool]:
         raise BadValueError(f"an array of {array.dtype} has no real numbers; give floats", "bad_value")
     single = array.dtype.kind == "f" and array.dtype.itemsize < 8
     return np.require(array, np.float64, ["C", "A"]), single
+
+
+def plain_limits(limits: Any) -> list[list[float]] | dict[str, list[float]] | bool | None:
+    """Converts limits to values that JSON can represent: those of an array (joints, 2), or of a dict of joint names and pairs."""
+    if isinstance(limits, (bool, np.bool_, type(None))):
+        return None if limits is None else bool(limits)
+    if isinstance(limits, Mapping):
+        return {joint: np.asarray(pair, np.float64).tolist() for joint, pair in limits.items()}
+    plain: list[list[float]] = np.asarray(limits, np.float64).tolist()
+    return plain
 
 
 def _matrices(given: Any) -> Any:

@@ -20,6 +20,7 @@ __all__ = [
     "_any_within",
     "_any_within_batch",
     "_arcs",
+    "_best",
     "_best_batch",
     "_optima",
     "_reach",
@@ -106,6 +107,8 @@ class Solver:
     def limits(self) -> _Floats: ...
     @property
     def is_redundant(self) -> bool: ...
+    @property
+    def scanned(self) -> list[str]: ...
     @property
     def solutions(self) -> int | None: ...
     @property
@@ -409,6 +412,9 @@ def _any_within_batch(
     solver: Solver | PlacedSolver, targets: _Target, limits: _Limits | None, threads: int | None, strict: bool
 ) -> tuple[_Floats, npt.NDArray[np.uint8], npt.NDArray[np.uint32], npt.NDArray[np.bool_]]: ...
 def _arcs(solver: Solver | PlacedSolver, target: _Target, limits: _Limits | None) -> Arcs: ...
+def _best(
+    solver: Solver | PlacedSolver, target: _Target, limits: _Limits | None, criterion: _PassedCriterion
+) -> Best | None: ...
 def _optima(
     solver: Solver | PlacedSolver, target: _Target, limits: _Limits | None, criterion: _PassedCriterion
 ) -> list[Best]: ...

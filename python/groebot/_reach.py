@@ -14,12 +14,15 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from ._arrays import plain_limits
 from ._errors import BadValueError
 from ._groebot import Solver, _reach, _reach_as
 from ._view import View, view
 
 if TYPE_CHECKING:
     import pyarrow as arrow
+
+    from ._groebot import _Limits
 
 Measure = Literal["count", "limits", "manipulability"]
 AxisLike = float | tuple[float, float, int] | npt.ArrayLike
@@ -51,7 +54,7 @@ class Ask:
     axes: tuple[Axis, Axis, Axis]
     orientations: int
     measure: Measure = "count"
-    limits: list[list[float]] | bool | None = None
+    limits: list[list[float]] | dict[str, list[float]] | bool | None = None
     given: list[float] = field(default_factory=list)
     seed: int | None = None
 
@@ -70,7 +73,7 @@ class Ask:
         progress: Callable[[str, int, int], object] | None = None,
     ) -> dict[str, Any]:
         """The columns of the grid points from `start` to before `stop`, and the number of orientations."""
-        limits = self.limits if isinstance(self.limits, (bool, type(None))) else np.asarray(self.limits, np.float64)
+        limits: _Limits | None = np.asarray(self.limits, np.float64) if isinstance(self.limits, list) else self.limits
         given = list(self.given)
         return _reach(solver, self.axes, self.orientations, self.measure, limits, given, self.seed, start, stop, threads, progress)
 
@@ -79,7 +82,7 @@ def requested(
     grid: Grid,
     orientations: int,
     measure: Measure,
-    limits: npt.ArrayLike | bool | None,
+    limits: _Limits | None,
     given: npt.ArrayLike | None,
     seed: int | None,
 ) -> Ask:
@@ -91,11 +94,9 @@ def requested(
     if len(grid) != 3:
         raise BadValueError(f"a grid has three axes, x, y and z; {len(grid)} are given", "bad_value")
     x, y, z = (_axis(name, axis) for name, axis in zip("xyz", grid))
-    plain: list[list[float]] | bool | None
-    plain = limits if isinstance(limits, (bool, type(None))) else np.asarray(limits, np.float64).tolist()
     numbers = [] if given is None else np.atleast_1d(np.asarray(given, np.float64)).tolist()
     count, own = _whole("orientations", orientations), None if seed is None else _whole("seed", seed)
-    return Ask((x, y, z), count, measure, plain, numbers, own)
+    return Ask((x, y, z), count, measure, plain_limits(limits), numbers, own)
 
 
 def _whole(name: str, number: Any) -> int:
@@ -141,9 +142,10 @@ class ReachMap:
     reached: npt.NDArray[np.uint32]
     """Number of orientations with a counted solution."""
     answers: npt.NDArray[np.uint32]
-    """Number of counted solutions."""
+    """Number of counted solutions; `reached` for a redundant solver without `given`."""
     open: npt.NDArray[np.uint32]
-    """Number of orientations on strata that could not be derived. They count as orientations without a solution."""
+    """Number of orientations on strata that could not be derived, or at which a redundant solver may have missed a solution. They count as orientations without
+    a solution."""
     best: npt.NDArray[np.float32] | None = None
     """The largest manipulability of a solution (Yoshikawa's, metres and radians), if measured."""
     mean: npt.NDArray[np.float32] | None = None
@@ -260,7 +262,7 @@ def reach_map(
     orientations: int = 100,
     measure: Measure = "count",
     *,
-    limits: npt.ArrayLike | bool | None = None,
+    limits: _Limits | None = None,
     given: npt.ArrayLike | None = None,
     seed: int | None = None,
     threads: int | None = None,
@@ -272,6 +274,10 @@ def reach_map(
     not part of the task. At each grid point there are `orientations`, evenly spread over those that the task distinguishes. With `seed`, those of each grid
     point are rotated at random. `measure` is count, limits (only solutions within the limits of the description) or manipulability. `limits` as in
     `Solver.solve_batch` restrict the solutions. `given` are the values of given joints. `threads` is by default the number of processors.
+
+    A redundant solver needs no `given` with the measure limits: an orientation counts if `Solver.any_within` has a solution, and `limits` narrow the described
+    ones. Other measures without `given` raise an error of the kind `unsupported`. With scanned joints, completeness is that of the scan.
+
     `progress(stage, done, open)` is called periodically. Poses are generated while they are counted: the map uses 20 bytes per grid point, and its columns use
     the same amount.
     """

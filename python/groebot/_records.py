@@ -27,7 +27,7 @@ class Closest:
     """The joint values whose target has the least error."""
 
     q: npt.NDArray[np.float64]
-    """The joint values. Angles are in (-pi, pi] unless limits were given."""
+    """The joint values. Angles are in (-pi, pi] unless limits were given, or the solver is redundant."""
     reached: npt.NDArray[np.float64]
     """The target that they reach: (4, 4) for a pose, else the numbers of `inputs` without those of given joints."""
     distance: float
@@ -35,7 +35,8 @@ class Closest:
     angle: float
     """The angle between `reached` and the target [rad]."""
     reachable: bool
-    """Whether the target is reachable, within the limits if these were given. `q` is then one of its solutions."""
+    """Whether the target is reachable, within the limits if these were given. `q` is then one of its solutions. Of a redundant solver, false does not prove
+    that the target is out of reach."""
     is_minimum: bool
     """Whether `q` is a local minimum of the error, by its first and second derivatives."""
     starts: int
@@ -89,7 +90,7 @@ class Path:
     is_unsure: bool = False
     """Whether the arcs of some target of a redundant solver are unsure."""
     arcs: npt.NDArray[np.int64] | None = None
-    """The index of each target's arc among those of `Solver.arcs`, (N,); None for a solver that is not redundant."""
+    """The index of each target's arc among those of `Solver.arcs`, (N,); None for a solver that is not redundant, and with scanned joints."""
 
 
 @dataclass(frozen=True, eq=False)

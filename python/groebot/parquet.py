@@ -22,6 +22,7 @@ import pyarrow.compute as compute
 import pyarrow.parquet as parquet
 
 from . import blocks
+from ._arrays import plain_limits
 from ._batch import Batch
 from ._errors import BadValueError
 from ._groebot import Solver
@@ -127,7 +128,7 @@ class Solve(blocks.Work):
     targets: Targets
     keep: tuple[str, ...] = KEEP
     options: dict[str, Any] = field(default_factory=dict)
-    """Options of `Solver.solve_batch`: numbers, lists and texts."""
+    """Options of `Solver.solve_batch`: numbers, lists, dicts and texts."""
     threads: int = 1
 
     @staticmethod
@@ -198,8 +199,8 @@ def _solver(text: str) -> Solver:
 def _plain(name: str, value: Any) -> Any:
     if name == "dtype":
         return np.dtype(value).name
-    if isinstance(value, (bool, np.bool_)):
-        return bool(value)
+    if name == "limits":
+        return plain_limits(value)
     array = np.asarray(value, np.float64)
     if name in ("near", "given") and array.ndim != 1:
         raise BadValueError(f"{name} of shape {array.shape} is not one for all targets; give (joints,)", "bad_value")

@@ -9,7 +9,7 @@ import os
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -19,6 +19,9 @@ import pyarrow.parquet as parquet
 from . import blocks
 from ._groebot import Solver
 from ._reach import _COLUMNS, Ask, Grid, Measure, ReachMap, requested
+
+if TYPE_CHECKING:
+    from ._groebot import _Limits
 
 PIECE = 1 << 16
 """Number of grid points that are computed and written together."""
@@ -40,7 +43,7 @@ class Reach(blocks.Work):
         orientations: int = 100,
         measure: Measure = "count",
         *,
-        limits: npt.ArrayLike | bool | None = None,
+        limits: _Limits | None = None,
         given: npt.ArrayLike | None = None,
         seed: int | None = None,
         threads: int = 1,

@@ -3,6 +3,7 @@
 use std::sync::Arc as Shared;
 
 use groebot::solver::redundant::{self, ArcEnd};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
 use crate::arrays::{Numbers, finite, shaped};
@@ -97,6 +98,13 @@ impl Arc {
         let (arm, question) = (self.question.arm()?, &self.question);
         let q = py.detach(|| arm.samples(&question.target, &question.limits, &self.arc, n));
         shaped(py, q.map_err(|error| raised(&error))?.concat(), &[n, arm.names().len()])
+    }
+
+    /// Raises an exception, because an arc belongs to its solver.
+    fn __reduce__(&self) -> PyResult<()> {
+        let text = "an Arc cannot be pickled: it refers to its solver; \
+                    pickle the solver and the target, or the joint values of `sample`";
+        Err(PyTypeError::new_err(text))
     }
 
     fn __repr__(&self) -> PyResult<String> {

@@ -20,6 +20,7 @@ mod reach;
 mod redundant;
 mod robot;
 mod rows;
+mod scanned;
 mod sink;
 mod solution;
 mod solver;
@@ -43,6 +44,7 @@ fn _groebot(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(reach::reach_as, module)?)?;
     module.add_function(wrap_pyfunction!(redundant::any_within, module)?)?;
     module.add_function(wrap_pyfunction!(redundant::arcs, module)?)?;
+    module.add_function(wrap_pyfunction!(redundant::best, module)?)?;
     module.add_function(wrap_pyfunction!(redundant::optima, module)?)?;
     module.add_function(wrap_pyfunction!(rows::any_within_batch, module)?)?;
     module.add_function(wrap_pyfunction!(rows::best_batch, module)?)?;

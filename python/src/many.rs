@@ -12,8 +12,7 @@ use crate::batch::{Job, Room, reason, solve_all};
 use crate::choose::Choice;
 use crate::errors::{bad_value, raised, unsupported};
 use crate::sink::Rows;
-use crate::solver::chain;
-use crate::stored::Stored;
+use crate::stored::{Stored, chain};
 
 /// Options of a batch.
 pub struct Wanted<'a, 'py> {

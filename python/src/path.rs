@@ -1,5 +1,6 @@
 //! Paths of an arm through poses: `Solver.solve_path`.
 
+use groebot::Watch;
 use groebot::kinematics::{InverseKinematics, Solution, Target};
 use groebot::motion::{Pace, PathRequest, follow};
 use groebot::solver::redundant::PathOptions;
@@ -14,8 +15,8 @@ use crate::batch::reason;
 use crate::errors::{bad_value, raised, unsupported};
 use crate::redundant::{self, arm, joint_values, lacks_given};
 use crate::sink::Status;
-use crate::solver::{Solver, chain};
-use crate::stored::Stored;
+use crate::solver::Solver;
+use crate::stored::{Stored, chain};
 use crate::work::{threads, watched};
 
 /// A kernel as an [`InverseKinematics`] solver.
@@ -127,30 +128,37 @@ pub fn solve_path<'py>(
     made(py, &followed.trajectory.q, &jumps, (false, None))
 }
 
-/// The path of a redundant solver along arcs, as `groebot.Path`.
+/// The path of a redundant solver along arcs, also with scanned joints, as `groebot.Path`.
 fn along_arcs<'py>(
     py: Python<'py>,
     solver: &Solver,
     targets: &Bound<'py, PyAny>,
     wishes: &Wishes<'_, 'py>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let (arm, (rows, one)) = (arm(&solver.0)?, redundant::targets(&solver.0, targets)?);
+    let stored = &*solver.0;
+    let (rows, one) = redundant::targets(stored, targets)?;
     if one {
         return Err(bad_value("`poses` holds one pose; give it an axis more: poses[None]"));
     }
     let fault = |row: usize, status: Status| bad_value(format!("row {row} {}", reason(status as u8)));
     let targets = rows.into_iter().enumerate().map(|(row, target)| target.map_err(|status| fault(row, status)));
     let targets = targets.collect::<PyResult<Vec<_>>>()?;
-    let limits = redundant::limits(solver, wishes.limits)?;
-    let Given { start, pace, speeds } = wishes.given(arm.names().len())?;
+    let Given { start, pace, speeds } = wishes.given(stored.program.joints.len())?;
     let times = pace.times(targets.len()).map_err(|error| raised(&error))?;
-    let options = PathOptions::new().limits(limits).speeds(&times, &speeds);
+    let options = PathOptions::new().speeds(&times, &speeds);
     let options = start.as_deref().map_or(options, |start| options.start(start));
-    let path = watched(py, None, threads(Some(1)), |watch| arm.path(&targets, &options, watch))?;
+    let (path, has_arcs) = if let Some(scan) = stored.scan() {
+        let limits = solver.bounds(wishes.limits)?;
+        let path = |watch: &Watch| scan.path(&targets, limits.as_deref(), &options, watch);
+        (watched(py, None, threads(None), path)?, false)
+    } else {
+        let (arm, options) = (arm(stored)?, options.limits(redundant::limits(solver, wishes.limits)?));
+        (watched(py, None, threads(Some(1)), |watch| arm.path(&targets, &options, watch))?, true)
+    };
     let jumps: Vec<_> =
         path.jumps.iter().map(|found| (found.sample, found.joint, found.step, found.why.as_str())).collect();
-    let arcs = path.arcs.iter().map(|arc| *arc as i64).collect();
-    made(py, &path.q, &jumps, (path.is_unsure, Some(arcs)))
+    let arcs = has_arcs.then(|| path.arcs.iter().map(|arc| *arc as i64).collect());
+    made(py, &path.q, &jumps, (path.is_unsure, arcs))
 }
 
 /// A `groebot.Path`. Jumps have the index of their pose, that of their joint, the step and the reason.

@@ -13,6 +13,7 @@ use crate::batch::reason;
 use crate::errors::{bad_value, raised, unsupported};
 use crate::kernel::Answer;
 use crate::placed::PlacedSolver;
+use crate::scanned::ScanQuestion;
 use crate::sink::Status;
 use crate::solution::Solution;
 use crate::solver::Solver;
@@ -30,11 +31,7 @@ pub struct Question {
 
 impl Question {
     pub fn new(solver: &Solver, target: &Bound<'_, PyAny>, limits: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
-        let (rows, one) = targets(&solver.0, target)?;
-        if !one {
-            return Err(bad_value("`target` holds many targets; use the function for batches"));
-        }
-        let target = rows[0].map_err(|status| bad_value(format!("the target {}", reason(status as u8))))?;
+        let target = one_target(&solver.0, target)?;
         let limits = self::limits(solver, limits)?;
         Ok(Question { stored: Shared::clone(&solver.0), target, limits })
     }
@@ -53,10 +50,31 @@ impl Question {
 /// The redundant solver.
 ///
 /// # Errors
-/// An error of the kind `unsupported` for a solver that is not redundant.
+/// An error of the kind `unsupported` for a solver that is not redundant, or with scanned joints.
 pub fn arm(stored: &Stored) -> PyResult<&RedundantSolver> {
-    let text = "this solver is not redundant: `solve` returns all its solutions. Derive a chain with one joint more than its task determines, without `given`";
-    stored.arm().ok_or_else(|| unsupported(text))
+    let text = || {
+        match stored.scanned()[..] {
+        [] => "this solver is not redundant: `solve` returns all its solutions. Derive a chain with one joint more than its task determines, without `given`".to_owned(),
+        ref scanned => format!(
+            "the solutions of this solver are no curves: {} is scanned. There are no arcs, optima or batches; \
+             use `solve`, `any_within`, `best`, `nearest` or `solve_path`",
+            scanned.join(", ")
+        ),
+    }
+    };
+    stored.arm().ok_or_else(|| unsupported(text()))
+}
+
+/// One target, without the value of the given joint.
+///
+/// # Errors
+/// As [`targets`]; `BadValueError` for several targets and for numbers that are no target.
+pub fn one_target(stored: &Stored, target: &Bound<'_, PyAny>) -> PyResult<ArmTarget> {
+    let (rows, one) = targets(stored, target)?;
+    if !one {
+        return Err(bad_value("`target` holds many targets; use the function for batches"));
+    }
+    rows[0].map_err(|status| bad_value(format!("the target {}", reason(status as u8))))
 }
 
 /// Whether `target` is one of a redundant solver, without the value of the given joint.
@@ -73,7 +91,12 @@ pub fn lacks_given(stored: &Stored, target: &Bound<'_, PyAny>, given: Option<&Bo
 /// # Errors
 /// `BadValueError` with the allowed shapes; an error of the kind `unsupported` for a solver that is not redundant.
 pub fn targets(stored: &Stored, object: &Bound<'_, PyAny>) -> PyResult<(Vec<Result<ArmTarget, Status>>, bool)> {
-    let arm = arm(stored)?;
+    let scan = stored.scan();
+    let arm = if scan.is_none() { Some(arm(stored)?) } else { None };
+    let checked = |numbers: &[f64]| match (scan, arm) {
+        (Some(scan), _) => scan.target_of_numbers(numbers).ok(),
+        (None, arm) => arm.and_then(|arm| arm.target_of_numbers(numbers).ok()),
+    };
     let numbers = Numbers::of(object)?;
     let shape = TargetShape { given: 0, ..stored.target_shape };
     let borrowed = numbers.array.try_readonly()?;
@@ -81,7 +104,7 @@ pub fn targets(stored: &Stored, object: &Bound<'_, PyAny>) -> PyResult<(Vec<Resu
     let rows = rows.placed(stored.placement.as_ref());
     let mut out = vec![0.0; shape.own];
     let target = |row| match rows.row(row, &mut out) {
-        Status::Solved => arm.target_of_numbers(&out).map_err(|_| fault(&shape, &out)),
+        Status::Solved => checked(&out).ok_or_else(|| fault(&shape, &out)),
         status => Err(status),
     };
     Ok(((0..rows.len()).map(target).collect(), one))
@@ -175,9 +198,12 @@ pub fn solve<'py>(
     q0: Option<&Bound<'py, PyAny>>,
     limits: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyList>> {
+    let q0 = q0.map(|q0| joint_values(q0, solver.0.program.joints.len(), "q0")).transpose()?;
+    if let Some(scan) = ScanQuestion::new(solver, target, limits)? {
+        return scan.solve(py, q0);
+    }
     let question = Question::new(solver, target, limits)?;
     let arm = question.arm()?;
-    let q0 = q0.map(|q0| joint_values(q0, arm.names().len(), "q0")).transpose()?;
     let criterion = q0.map_or(Criterion::Margin, Criterion::nearest);
     let found = py.detach(|| arm.best_by_arc(&question.target, &question.limits, &criterion));
     let found = found.map_err(|error| raised(&error))?;
@@ -199,6 +225,9 @@ pub fn nearest(
     q0: &[f64],
     limits: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Option<Solution>> {
+    if let Some(scan) = ScanQuestion::new(solver, target, limits)? {
+        return scan.nearest(py, q0);
+    }
     let question = Question::new(solver, target, limits)?;
     let (arm, criterion) = (question.arm()?, Criterion::nearest(q0.to_vec()));
     let found = py.detach(|| arm.best_by_arc(&question.target, &question.limits, &criterion));
@@ -224,7 +253,11 @@ pub fn any_within<'py>(
     target: &Bound<'py, PyAny>,
     limits: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let question = Question::new(&solver_of(solver)?, target, limits)?;
+    let solver = solver_of(solver)?;
+    if let Some(scan) = ScanQuestion::new(&solver, target, limits)? {
+        return scan.any_within(py);
+    }
+    let question = Question::new(&solver, target, limits)?;
     let arm = question.arm()?;
     let found = py.detach(|| arm.any_within(&question.target, &question.limits)).map_err(|error| raised(&error))?;
     let q = found.q.map(|q| row(py, q)).transpose()?;
@@ -249,6 +282,23 @@ pub fn arcs<'py>(
     let reason = reason_of(py, &question.stored, found.absence.as_ref())?;
     let made = py.import("groebot._arms")?.getattr("Arcs")?;
     made.call1((arcs.to_tuple(), reason, found.is_unsure, found.is_surface, found.closed))
+}
+
+/// The best solution within limits by a criterion, as a `groebot.Best`; `None` without a solution.
+#[pyfunction]
+#[pyo3(name = "_best")]
+pub fn best<'py>(
+    py: Python<'py>,
+    solver: &Bound<'py, PyAny>,
+    target: &Bound<'py, PyAny>,
+    limits: Option<&Bound<'py, PyAny>>,
+    criterion: PassedCriterion,
+) -> PyResult<Option<Bound<'py, PyAny>>> {
+    let own = solver_of(solver)?;
+    if let Some(scan) = ScanQuestion::new(&own, target, limits)? {
+        return scan.best(py, &criteria(criterion, own.0.program.joints.len()).swap_remove(0));
+    }
+    Ok(optima(py, solver, target, limits, criterion)?.iter().next())
 }
 
 /// The local optima on all arcs, each a `groebot.Best`, the best ones first.

@@ -13,7 +13,7 @@ use pyo3::types::{PyDict, PyList, PyTuple};
 use crate::arrays::{self, Numbers};
 use crate::choose::nearest_first;
 use crate::closest;
-use crate::errors::{bad_value, raised, unsupported};
+use crate::errors::{bad_value, raised};
 use crate::kernel::Answer;
 use crate::many::{self, Wanted};
 use crate::path::Wishes;
@@ -113,11 +113,18 @@ impl Solver {
         arrays::shaped(py, limits.concat(), &[limits.len(), 2])
     }
 
-    /// Whether it finds all solutions within limits of an arm with one joint more than its task determines. Targets are then without the values of `given`;
-    /// with them, it solves as other solvers.
+    /// Whether it finds all solutions within limits of an arm with one joint more than its task determines, or with `scanned` joints those of samples. Targets
+    /// are then without the values of `given`; with them, it solves as other solvers.
     #[getter]
     pub fn is_redundant(&self) -> bool {
         self.0.program.redundancy.is_some()
+    }
+
+    /// The names of the joints whose ranges are scanned, of an arm with two to four joints more than its task determines; empty for other solvers. Then
+    /// `solve`, `any_within`, `best`, `nearest`, `solve_path` and `closest` use samples of these joints' values: completeness is that of the scan.
+    #[getter]
+    fn scanned(&self) -> Vec<&str> {
+        self.0.scanned()
     }
 
     /// The number of complex solutions of a generic target, if it was counted.
@@ -140,7 +147,8 @@ impl Solver {
     /// those of the description. With `q0` (joints,), each angle is moved by whole turns to the nearest value, and the nearest solution is the first one.
     ///
     /// A redundant solver returns the best solution of each arc within the described limits as `groebot.Solutions`: by the margin to the limits, with `q0` by
-    /// the distance to it. `limits` can only narrow the described ones. Without a solution, the list is empty and has a `reason`.
+    /// the distance to it. `limits` can only narrow the described ones. Without a solution, the list is empty and has a `reason`. With `scanned` joints, the
+    /// list has the best solution of the scan only, which misses narrow ranges of solutions.
     #[pyo3(signature = (target, *, q0=None, given=None, limits=None))]
     pub fn solve<'py>(
         &self,
@@ -164,7 +172,7 @@ impl Solver {
 
     /// Returns the solution of one target that is nearest to the joint values `q0` after whole turns, within `limits` if these are given. `None` if there is
     /// none. Its angles are not wrapped. At a singular target the whole self-motion is searched, not only its listed member. A redundant solver searches all arcs
-    /// within the described limits.
+    /// within the described limits; with `scanned` joints, completeness is that of the scan.
     #[pyo3(signature = (target, q0, *, given=None, limits=None))]
     pub fn nearest(
         &self,
@@ -190,7 +198,8 @@ impl Solver {
     /// `targets` has the shape (N, 4, 4), (N, 12), (N, 7), or (N, numbers of `inputs`). `given` has the shape (given joints,) or (N, given joints). With
     /// `limits`, only solutions are kept that are within them after whole turns. With `near`, of shape (joints,) or (N, joints), only the nearest solution of
     /// each target is kept. `out`, of shape (rows, joints), receives the joint values. Invalid targets are reported in `status`; with `strict` they raise an
-    /// exception. `threads` is by default the number of processors. A redundant solver returns for each target what `solve` returns.
+    /// exception. `threads` is by default the number of processors. A redundant solver returns for each target what `solve` returns; with `scanned` joints
+    /// there are no batches.
     #[pyo3(signature = (targets, *, given=None, layout="ragged", limits=None, near=None, out=None, dtype=None, threads=None, strict=false))]
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     pub fn solve_batch<'py>(
@@ -237,7 +246,8 @@ impl Solver {
     ///
     /// `q0` are the joint values before the first pose. A step is a jump if it exceeds `speeds` (joints,) \[rad/s, m/s\] times the time between two poses \[s\].
     /// This is `dt`, or the difference of `times` (N,). Without these, a jump is a step above half a radian or a tenth of the reach. Limits are those of the
-    /// description. A redundant solver follows targets of any task along arcs, also within narrower `limits`.
+    /// description. A redundant solver follows targets of any task along arcs, also within narrower `limits`. With `scanned` joints, these move over a grid of
+    /// their values first.
     #[pyo3(signature = (poses, q0=None, *, dt=None, times=None, speeds=None, limits=None))]
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     pub fn solve_path<'py>(
@@ -256,7 +266,8 @@ impl Solver {
     /// Returns the joint values whose target has the least error: see `groebot.Closest`. They are a solution if the target is reachable.
     ///
     /// The error is distance^2 + (2 length sin(angle / 2))^2. `length` is by default the reach. With `limits`, of shape (joints, 2) or `True` for those of the
-    /// description, the joint values are within them; without, limits are not respected.
+    /// description, the joint values are within them; without, limits are not respected. A redundant solver without `given` moves all joints, within the
+    /// described limits; `limits` can only narrow them.
     #[pyo3(signature = (target, *, length=None, given=None, limits=None))]
     pub fn closest<'py>(
         &self,
@@ -385,14 +396,4 @@ impl Solver {
             Err(_) => arrays::limits(&Numbers::of(limits)?, self.0.program.joints.len()).map(Some),
         }
     }
-}
-
-/// The chain of a solver.
-///
-/// # Errors
-/// `GroebotError` of the kind `unsupported` for a solver without one.
-pub fn chain(stored: &Stored) -> PyResult<&groebot::kinematics::Chain> {
-    stored.chain.as_ref().ok_or_else(|| {
-        unsupported("this solver was read without the chain that it is of; load the whole folder of its derivation")
-    })
 }

@@ -7,7 +7,7 @@ use groebot::derive::{Derivation, Source};
 use groebot::document::read_text;
 use groebot::folder::{self, PROGRAM};
 use groebot::kinematics::Chain;
-use groebot::solver::redundant::RedundantSolver;
+use groebot::solver::redundant::{RedundantSolver, ScanningSolver};
 use groebot::solver::{self, Condition, Placement, Program, TaskPlacement};
 use groebot::{Error, ErrorKind, Result, Watch};
 use serde_json::{Value, json};
@@ -41,6 +41,8 @@ pub struct Stored {
     library: OnceLock<solver::Solver>,
     /// The redundant solver, prepared at its first use.
     arm: OnceLock<Option<RedundantSolver>>,
+    /// The solver with scanned joints, prepared at its first use.
+    scan: OnceLock<Option<ScanningSolver>>,
 }
 
 impl Stored {
@@ -65,6 +67,7 @@ impl Stored {
             placement: None,
             library: OnceLock::new(),
             arm: OnceLock::new(),
+            scan: OnceLock::new(),
         }
     }
 
@@ -89,6 +92,7 @@ impl Stored {
             placement,
             library: OnceLock::new(),
             arm: OnceLock::new(),
+            scan: OnceLock::new(),
         })
     }
 
@@ -97,9 +101,20 @@ impl Stored {
         self.library.get_or_init(|| self.program.solver())
     }
 
-    /// The redundant solver; `None` for a solver that is not redundant.
+    /// The redundant solver; `None` for a solver that is not redundant, or with scanned joints.
     pub fn arm(&self) -> Option<&RedundantSolver> {
         self.arm.get_or_init(|| self.program.redundant_solver()).as_ref()
+    }
+
+    /// The solver with scanned joints; `None` for a solver without them.
+    pub fn scan(&self) -> Option<&ScanningSolver> {
+        self.scan.get_or_init(|| self.program.scanning_solver()).as_ref()
+    }
+
+    /// The names of the scanned joints.
+    pub fn scanned(&self) -> Vec<&str> {
+        let scanned = self.program.redundancy.as_deref().map(|redundancy| redundancy.scanned()).unwrap_or_default();
+        scanned.into_iter().map(|joint| self.program.joints[joint].name.as_str()).collect()
     }
 
     /// Returns a solver of the wheel.
@@ -229,4 +244,16 @@ fn target_shape(program: &Program) -> TargetShape {
     });
     let rotation = rotations.next().filter(|_| rotations.next().is_none());
     TargetShape { own, given, rotation, is_pose: own == 12 && rotation == Some(3) }
+}
+
+/// The chain of a solver.
+///
+/// # Errors
+/// `GroebotError` of the kind `unsupported` for a solver without one.
+pub fn chain(stored: &Stored) -> pyo3::PyResult<&Chain> {
+    stored.chain.as_ref().ok_or_else(|| {
+        crate::errors::unsupported(
+            "this solver was read without the chain that it is of; load the whole folder of its derivation",
+        )
+    })
 }

@@ -113,6 +113,11 @@ def test_options_are_those_of_solve_batch(tmp_path, ur5, poses, source):
     ((_, batch),) = batches(tmp_path / "out")
     wanted = ur5.solve_batch(poses, limits=limits, near=np.zeros(6), dtype="float32")
     assert batch.q.dtype == np.float32 and np.array_equal(batch.q, wanted.q) and np.array_equal(batch.status, wanted.status)
+    named = dict(zip(ur5.joints, limits))
+    blocks.run(Solve.of(ur5, source, limits=named, near=np.zeros(6), dtype="float32"), tmp_path / "named")
+    assert np.array_equal(next(batches(tmp_path / "named"))[1].q, wanted.q)
+    with pytest.raises(BadValueError, match="there is no joint `elbow`"):
+        Solve.of(ur5, source, limits={"elbow": (0.0, 1.0)})
 
 
 def test_given_joints_are_after_the_inputs(tmp_path, random):

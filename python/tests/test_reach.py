@@ -82,6 +82,54 @@ def test_described_limits_have_two_names():
         reach_map(Solver.named("puma"), GRID, 5, limits=True)
 
 
+def test_limits_may_be_those_of_some_joints(tmp_path, ur5):
+    limits = ur5.limits.copy()
+    limits[2] = 0.0, 2.0
+    made = reach_map(ur5, GRID, 30, limits={ur5.joints[2]: (0.0, 2.0)})
+    np.testing.assert_array_equal(made.answers, reach_map(ur5, GRID, 30, limits=limits).answers)
+    assert made.limited and 0 < made.answers.sum() < reach_map(ur5, GRID, 30).answers.sum()
+    need("pyarrow")
+    from groebot import blocks
+    from groebot.reach import Reach, read
+
+    work = Reach.of(ur5, GRID, 30, limits={ur5.joints[2]: (0.0, 2.0)})
+    blocks.run(work, tmp_path / "out", 7)
+    np.testing.assert_array_equal(read(tmp_path / "out", work).answers, made.answers)
+    with pytest.raises(BadValueError, match="there is no joint `elbow`"):
+        Reach.of(ur5, GRID, 30, limits={"elbow": (0.0, 1.0)})
+
+
+def test_a_redundant_arm_counts_poses_within_limits(panda):
+    grid = {"x": (0.2, 0.6, 3), "y": 0.1, "z": (0.2, 0.8, 3)}
+    made = reach_map(panda, grid, 20, "limits")
+    assert made.limited and made.measure == "limits"
+    np.testing.assert_array_equal(made.answers, made.reached)
+    # The solutions for many values of the given joint are all counted, and those of arms without solutions are not.
+    low, high = panda.limits[panda.joints.index(panda.given[0])]
+    values, targets = np.linspace(low, high, 101), poses(made, 20).reshape(-1, 4, 4)
+    counts = [panda.solve_batch(targets, given=value, limits=panda.limits).counts for value in values]
+    sampled = (np.stack(counts) > 0).any(0).reshape(*made.reached.shape, 20).sum(-1)
+    assert (made.reached + made.open >= sampled).all() and 10 < sampled.sum() < 180 and made.reached.sum() - sampled.sum() <= 3
+    narrow = reach_map(panda, grid, 20, "limits", limits={"panda_joint1": (-0.5, 0.5)})
+    assert (narrow.reached <= made.reached).all() and narrow.reached.sum() < made.reached.sum()
+    within = panda.any_within_batch(targets, limits={"panda_joint1": (-0.5, 0.5)})
+    np.testing.assert_array_equal(narrow.reached, (within.status == groebot.Status.SOLVED).reshape(*made.reached.shape, 20).sum(-1))
+    for measure in ("count", "manipulability"):
+        with pytest.raises(groebot.GroebotError, match="the measure `limits` is allowed") as raised:
+            reach_map(panda, grid, 20, measure)
+        assert raised.value.kind == "unsupported"
+    assert reach_map(panda, grid, 20, given=0.1).answers.sum() > 0
+
+
+def test_a_map_of_a_redundant_arm_reports_its_progress(panda):
+    reported = []
+    for count in (6, 12, 24, 48):
+        reach_map(panda, [(-0.6, 0.6, count)] * 3, 2, "limits", progress=lambda *line: reported.append(line))
+        if reported:
+            break
+    assert reported and all(stage == "reach: places" for stage, _, _ in reported)
+
+
 def test_given_joints_and_threads_and_seeds():
     arm = Solver.named("iiwa14")
     grid = {"x": (0.2, 0.6, 3), "y": 0.1, "z": (0.3, 0.9, 3)}
@@ -120,7 +168,7 @@ def test_what_is_no_grid_is_refused(ur5, grid, message):
 
 
 def test_wrong_questions_are_refused(ur5):
-    with pytest.raises(groebot.GroebotError, match="no measure"):
+    with pytest.raises(groebot.GroebotError, match="not a measure"):
         reach_map(ur5, GRID, 10, "weight")
     for orientations in (0, -1, 10**30, 2.5):
         with pytest.raises(BadValueError, match="orientations"):

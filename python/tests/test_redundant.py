@@ -314,6 +314,36 @@ def test_a_redundant_solver_is_pickled(panda, target):
         assert np.array_equal(pickle.loads(pickle.dumps(record)).q, record.q)
 
 
+def test_arcs_are_not_pickled(panda, target):
+    arcs = panda.arcs(target)
+    for own in (arcs, arcs[0]):
+        with pytest.raises(TypeError, match="pickle the solver and the target"):
+            pickle.dumps(own)
+
+
+def test_the_closest_joint_values_need_no_given_joint(panda, planar, target):
+    found = panda.closest(target)
+    assert found.reachable and found.distance < 1e-9
+    assert_solves(target, found.q)
+    far = target.copy()
+    far[:3, 3] += 0.9, 0.1, 0.2
+    found = panda.closest(far, length=0.4)
+    assert not found.reachable and found.is_minimum and (found.q >= LIMITS[:, 0]).all() and (found.q <= LIMITS[:, 1]).all()
+    assert np.abs(reach(found.q) - found.reached).max() < 1e-9
+    # Every value of the given joint has an error that is not smaller.
+    low, high = LIMITS[NAMES.index(panda.given[0])]
+    error = lambda own: own.distance**2 + (2 * 0.4 * np.sin(own.angle / 2)) ** 2
+    for value in np.linspace(low, high, 9):
+        assert error(found) <= error(panda.closest(far, length=0.4, given=value, limits=True)) + 1e-9
+    # Three links of 1.05 m in all; with the elbow bent by at least 1 rad, by the law of cosines.
+    assert abs(planar.closest([3.0, 4.0]).distance - 3.95) < 1e-9
+    bent = planar.closest([0.0, 2.0], limits=[[-np.inf, np.inf], [1.0, 2.0], [0.0, 0.5]])
+    assert abs(bent.distance - (2.0 - np.sqrt(0.5**2 + 0.55**2 + 2 * 0.5 * 0.55 * np.cos(1.0)))) < 1e-9
+    for wrong in ({"length": 0.0}, {"limits": LIMITS[:6]}, {"limits": {"elbow": (0.0, 1.0)}}):
+        with pytest.raises(BadValueError):
+            panda.closest(far, **wrong)
+
+
 @pytest.mark.parametrize(
     ("limits", "kind"),
     [

@@ -68,7 +68,24 @@ pub struct Answer<'a> {
     pub angles: Angles,
 }
 
+impl<'a> Answer<'a> {
+    /// A target of a redundant arm whose solutions are printed elsewhere, with the closest joint values.
+    pub fn of_closest(program: &'a Program, closest: Search, angles: Angles) -> Self {
+        Answer { program, target: Vec::new(), solutions: Vec::new(), reason: None, closest, angles }
+    }
+}
+
 impl Answer<'_> {
+    /// The error of the closest joint values, and a table of them; empty without them.
+    pub fn closest_text(&self) -> String {
+        self.closest.found().map(|found| closest_text(self, found)).unwrap_or_default()
+    }
+
+    /// The closest joint values in JSON.
+    pub fn closest_entry(&self) -> Option<ClosestEntry<'_>> {
+        self.closest.found().map(|found| ClosestEntry::new(self, found))
+    }
+
     /// Whether the solver completed its work on the target.
     fn are_settled(&self) -> bool {
         self.solutions.iter().all(|solution| solution.settled)
@@ -128,8 +145,7 @@ pub fn text(answer: &Answer<'_>) -> String {
     let title = format!("{} at {}", program.name, target.collect::<Vec<_>>().join(", "));
     if answer.solutions.is_empty() {
         let reason = answer.reason.as_ref().map(|reason| format!(": {reason}")).unwrap_or_default();
-        let closest = answer.closest.found().map(|found| closest_text(answer, found)).unwrap_or_default();
-        return format!("{title}: unreachable: no solution{reason}\n{closest}");
+        return format!("{title}: unreachable: no solution{reason}\n{}", answer.closest_text());
     }
     let plural = if answer.solutions.len() == 1 { "solution" } else { "solutions" };
     let mut text = format!("{title}: {} {plural}\n", answer.solutions.len());
@@ -236,7 +252,7 @@ pub fn json(answer: &Answer<'_>, pretty: bool) -> String {
         settled: answer.are_settled(),
         solutions: answer.solutions.iter().map(entry).collect(),
         reason: answer.reason.as_deref(),
-        closest: answer.closest.found().map(|found| ClosestEntry::new(answer, found)),
+        closest: answer.closest_entry(),
     };
     let text = if pretty { serde_json::to_string_pretty(&page) } else { serde_json::to_string(&page) };
     text.expect("an answer can be represented in JSON") + "\n"
@@ -329,7 +345,7 @@ fn closest_text(answer: &Answer<'_>, closest: &Closest) -> String {
 
 /// The closest joint values in JSON.
 #[derive(Serialize)]
-struct ClosestEntry<'a> {
+pub struct ClosestEntry<'a> {
     q: Vec<f64>,
     /// The numbers that they reach, as those of the target.
     reached: Vec<f64>,

@@ -2,14 +2,15 @@
 
 use serde::Serialize;
 
-use super::answers::Angles;
+use super::answers::{Angles, Answer, ClosestEntry};
 use super::cells::{exact, table};
+use super::closest::Search;
 use super::forms::Forms;
 use super::json::FORMAT;
 use super::targets;
 use crate::{Error, ErrorKind, Result};
 use groebot_ik::solver::redundant::{ArcEnd, Arcs, Best, Criterion, JointLimits, RedundantSolver};
-use groebot_ik::solver::{Program, Unit};
+use groebot_ik::solver::{Closest, ErrorWeights, Program, Unit};
 
 /// A redundant solver with the options of the command.
 pub struct ArcQuestion {
@@ -19,6 +20,7 @@ pub struct ArcQuestion {
     forms: Forms,
     limits: JointLimits,
     criterion: Criterion,
+    closest: Option<ErrorWeights>,
     angles: Angles,
 }
 
@@ -28,10 +30,12 @@ pub struct ArcOptions<'a> {
     pub limits: &'a [String],
     /// The joint values that the solution shall be near to, as text.
     pub closest_to: Option<&'a str>,
+    /// The error of the closest joint values, if they are requested.
+    pub closest: Option<ErrorWeights>,
 }
 
 impl ArcOptions<'_> {
-    /// Whether an option is set.
+    /// Whether an option is set that other solvers do not have.
     pub fn are_set(&self) -> bool {
         !self.limits.is_empty() || self.closest_to.is_some()
     }
@@ -61,7 +65,8 @@ impl ArcQuestion {
             Some(text) => Criterion::nearest(joint_values(&bare, text, angles)?),
             None => Criterion::Margin,
         };
-        Ok(Some(ArcQuestion { forms: Forms::new(&bare), bare, solver, limits, criterion, angles }))
+        let closest = options.closest;
+        Ok(Some(ArcQuestion { forms: Forms::new(&bare), bare, solver, limits, criterion, closest, angles }))
     }
 
     /// The names of the target's numbers if they are `count`: a target without the value of a given joint.
@@ -72,14 +77,25 @@ impl ArcQuestion {
     /// The arcs of a target in one of the forms.
     ///
     /// # Errors
-    /// As [`Forms::inputs`], [`RedundantSolver::target_of_numbers`] and [`RedundantSolver::arcs`].
+    /// As [`Forms::inputs`], [`RedundantSolver::target_of_numbers`], [`RedundantSolver::arcs`] and [`RedundantSolver::closest`].
     pub fn answer(&self, numbers: Vec<f64>) -> Result<ArcAnswer<'_>> {
         let given = self.forms.inputs(numbers)?;
         let target = self.solver.target_of_numbers(&self.angles.to_radians(&self.bare, &given))?;
         let arcs = self.solver.arcs(&target, &self.limits)?;
         let best = self.solver.best_on(&target, &self.limits, &arcs.arcs, &self.criterion)?;
-        Ok(ArcAnswer { question: self, target: given, arcs, best })
+        let search = |weights: &ErrorWeights| self.solver.closest(&target, &self.limits, weights);
+        let closest = closest_beside(self.closest.as_ref().filter(|_| arcs.arcs.is_empty()), search)?;
+        let closest = Answer::of_closest(&self.bare, closest, self.angles);
+        Ok(ArcAnswer { question: self, target: given, arcs, best, closest })
     }
+}
+
+/// The closest joint values, if they are requested.
+pub(super) fn closest_beside(
+    weights: Option<&ErrorWeights>,
+    search: impl FnOnce(&ErrorWeights) -> Result<Closest>,
+) -> Result<Search> {
+    weights.map_or(Ok(Search::Off), |weights| Ok(Search::Found(Box::new(search(weights)?))))
 }
 
 /// The value of a joint as it is given, in the unit of the program.
@@ -158,6 +174,8 @@ pub struct ArcAnswer<'a> {
     target: Vec<f64>,
     arcs: Arcs,
     best: Option<Best>,
+    /// The closest joint values, if there is no arc.
+    closest: Answer<'a>,
 }
 
 impl ArcAnswer<'_> {
@@ -182,7 +200,7 @@ impl ArcAnswer<'_> {
         let unsure = "  Unsure: other solutions within limits may exist.\n";
         if let Some(reason) = self.reason() {
             let doubt = if self.arcs.is_unsure { unsure } else { "" };
-            return format!("{title}: no solution within limits: {reason}\n{doubt}");
+            return format!("{title}: no solution within limits: {reason}\n{doubt}{}", self.closest.closest_text());
         }
         let count = self.arcs.arcs.len();
         let plural = if count == 1 { "arc" } else { "arcs" };
@@ -265,6 +283,7 @@ impl ArcAnswer<'_> {
             grid_only: self.arcs.is_grid_only,
             unsure: self.arcs.is_unsure,
             reason: self.reason(),
+            closest: self.closest.closest_entry(),
         };
         let text = if pretty { serde_json::to_string_pretty(&page) } else { serde_json::to_string(&page) };
         text.expect("an answer can be represented in JSON") + "\n"
@@ -291,6 +310,9 @@ struct Page<'a> {
     /// The reason why there is no solution within limits.
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<String>,
+    /// The closest joint values, if they were requested and there is no arc.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    closest: Option<ClosestEntry<'a>>,
 }
 
 /// The unit of each number of the target and of each joint.

@@ -45,8 +45,8 @@ pub struct EndArguments {
     #[arg(long, value_name = "X,Y,Z", value_parser = direction, allow_hyphen_values = true)]
     direction: Option<Direction>,
     /// A joint whose value is given with each target (repeatable); `auto`: the planner chooses all redundant joints
-    /// (default: as described, else the planner chooses one redundant joint; `derive` then also makes the solvers with
-    /// each other joint given, which find all arcs of solutions)
+    /// (default: as described, else none: of a chain with one redundant joint, `derive` makes the solvers with each
+    /// joint given, which find all arcs of solutions; with two to four, it also scans the ranges of up to three joints)
     #[arg(long, value_name = "JOINT", alias = "free")]
     given: Vec<String>,
 }

@@ -25,11 +25,16 @@ const EXAMPLES: &str = "Examples:
   groebot reach derivations/ur5 --x -1:1:41 --y -1:1:41 --z 0.3 --orientations 400 --plot at_30_cm.svg
   groebot reach derivations/ur5 --measure manipulability -o map.csv
   groebot reach derivations/iiwa14 --given 0.5 --measure limits --plot within.svg
+  groebot reach panda --measure limits --orientations 20 --plot panda.svg
   groebot view derivations/ur5 --reach ur5.json -o ur5.html
 
 An axis is FROM:TO:COUNT, evenly spaced points including both ends, or one number. The default is a
 cube around the first joint that contains the workspace. Each point has orientations, spread evenly
 over all that the task distinguishes: rotations, directions, or angles.
+
+A redundant arm (such as panda, of `groebot derive panda.urdf`) needs no --given with --measure limits:
+an orientation counts if some solution is within the limits. Those where one may have been missed
+are reported as open.
 
 --plot colours slices by the fraction of orientations that are reached, or by the mean
 manipulability (of each orientation that of its best solution).";
@@ -61,7 +66,8 @@ pub struct Arguments {
     /// Rotate the orientations of each point randomly, by this random seed
     #[arg(long, value_name = "SEED")]
     seed: Option<u64>,
-    /// The values of the joints that are given with each target [rad, m]
+    /// The values of the joints that are given with each target [rad, m]; a redundant arm needs none with --measure
+    /// limits
     #[arg(long, value_name = "NUMBERS", value_delimiter = ',', allow_hyphen_values = true)]
     given: Vec<f64>,
     /// Write the map to this file: JSON, which `groebot view` shows, or CSV
@@ -104,7 +110,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
         let across = arguments.across.as_deref().and_then(|name| ["x", "y", "z"].iter().position(|own| *own == name));
         output.write(plot, Kind::Markup, map.to_svg(across))?;
     }
-    if arguments.budget.quiet { Ok(()) } else { console::print(&summary(&map, start.elapsed())) }
+    if arguments.budget.quiet {
+        Ok(())
+    } else {
+        console::print(&summary(&map, program.redundancy.is_some() && arguments.given.is_empty(), start.elapsed()))
+    }
 }
 
 impl Arguments {
@@ -152,19 +162,25 @@ fn around(chain: &Chain) -> Option<(Point3<f64>, f64)> {
     Some((ball.middle, ball.radius + travels)).filter(|(_, radius)| *radius > 0.0)
 }
 
-fn summary(map: &ReachMap, time: Duration) -> String {
+fn summary(map: &ReachMap, is_redundant: bool, time: Duration) -> String {
     let ReachMap { solver, task, orientations, .. } = map;
     let (places, reached) = (map.grid.places(), map.entries.iter().filter(|entry| entry.reached > 0).count());
     let answers: u64 = map.entries.iter().map(|entry| u64::from(entry.answers)).sum();
     let (targets, solved) = (places * orientations, map.reached());
     let within = if map.limited { " within limits" } else { "" };
+    let answers = if is_redundant { String::new() } else { format!(", with {answers} answers") };
     let mut text = format!(
-        "{solver}, {task}: {places} points, {orientations} orientations each, {:.2} s\nreached{within}: {reached} points; {solved} of {targets} targets ({:.1} %), with {answers} answers\n",
+        "{solver}, {task}: {places} points, {orientations} orientations each, {:.2} s\nreached{within}: {reached} points; {solved} of {targets} targets ({:.1} %){answers}\n",
         time.as_secs_f64(),
         100.0 * solved as f64 / targets as f64
     );
     if map.open() > 0 {
-        text += &format!("{} targets are on strata that could not be derived; they count as not reached\n", map.open());
+        let why = if is_redundant {
+            "may have a solution that was missed"
+        } else {
+            "are on strata that could not be derived"
+        };
+        text += &format!("{} targets {why}; they count as not reached\n", map.open());
     }
     if map.measure == Measure::Manipulability {
         let best = map.entries.iter().map(|entry| entry.best).fold(0.0, f32::max);

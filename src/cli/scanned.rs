@@ -2,13 +2,13 @@
 
 use serde::Serialize;
 
-use super::answers::Angles;
-use super::arcs::{ArcOptions, Units, joint_values, joints_table, limits_of, title};
+use super::answers::{Angles, Answer, ClosestEntry};
+use super::arcs::{ArcOptions, Units, closest_beside, joint_values, joints_table, limits_of, title};
 use super::forms::Forms;
 use super::json::FORMAT;
 use crate::{Error, ErrorKind, Result};
-use groebot_ik::solver::Program;
 use groebot_ik::solver::redundant::{Criterion, Scanned, ScanningSolver};
+use groebot_ik::solver::{ErrorWeights, Program};
 
 /// A solver with scanned joints and the options of the command.
 pub struct ScanQuestion {
@@ -18,6 +18,7 @@ pub struct ScanQuestion {
     forms: Forms,
     limits: Vec<[f64; 2]>,
     criterion: Criterion,
+    closest: Option<ErrorWeights>,
     angles: Angles,
 }
 
@@ -47,7 +48,8 @@ impl ScanQuestion {
             Some(text) => Criterion::nearest(joint_values(&bare, text, angles)?),
             None => Criterion::Margin,
         };
-        Ok(Some(ScanQuestion { forms: Forms::new(&bare), bare, solver, limits, criterion, angles }))
+        let closest = options.closest;
+        Ok(Some(ScanQuestion { forms: Forms::new(&bare), bare, solver, limits, criterion, closest, angles }))
     }
 
     /// The names of the target's numbers if they are `count`: a target without the values of given joints.
@@ -58,12 +60,15 @@ impl ScanQuestion {
     /// The best solution of a target in one of the forms.
     ///
     /// # Errors
-    /// As [`Forms::inputs`], [`ScanningSolver::target`] and [`ScanningSolver::best`].
+    /// As [`Forms::inputs`], [`ScanningSolver::target`], [`ScanningSolver::best`] and [`ScanningSolver::closest`].
     pub fn answer(&self, numbers: Vec<f64>) -> Result<ScanAnswer<'_>> {
         let target = self.forms.inputs(numbers)?;
         let own = self.solver.target_of_numbers(&self.angles.to_radians(&self.bare, &target))?;
         let found = self.solver.best(&own, Some(&self.limits), &self.criterion)?;
-        Ok(ScanAnswer { question: self, target, found })
+        let search = |weights: &ErrorWeights| self.solver.closest(&own, Some(&self.limits), weights);
+        let closest = closest_beside(self.closest.as_ref().filter(|_| found.q.is_none()), search)?;
+        let closest = Answer::of_closest(&self.bare, closest, self.angles);
+        Ok(ScanAnswer { question: self, target, found, closest })
     }
 
     fn scanned(&self) -> Vec<&str> {
@@ -77,6 +82,8 @@ pub struct ScanAnswer<'a> {
     /// The target as it was given.
     target: Vec<f64>,
     found: Scanned,
+    /// The closest joint values, if there is no solution.
+    closest: Answer<'a>,
 }
 
 impl ScanAnswer<'_> {
@@ -95,7 +102,8 @@ impl ScanAnswer<'_> {
             self.question.scanned().join(", ")
         );
         let (Some(q), Some(value)) = (&self.found.q, self.found.value) else {
-            return format!("{title}: no solution within limits: {}\n{note}", self.reason().unwrap_or_default());
+            let (reason, closest) = (self.reason().unwrap_or_default(), self.closest.closest_text());
+            return format!("{title}: no solution within limits: {reason}\n{note}{closest}");
         };
         let what = match criterion {
             Criterion::Margin => format!("largest margin to the limits: {value:.6}"),
@@ -122,6 +130,7 @@ impl ScanAnswer<'_> {
                 value: self.found.value,
             }),
             reason: self.reason(),
+            closest: self.closest.closest_entry(),
         };
         let text = if pretty { serde_json::to_string_pretty(&page) } else { serde_json::to_string(&page) };
         text.expect("an answer can be represented in JSON") + "\n"
@@ -142,6 +151,9 @@ struct Page<'a> {
     /// The reason why no sample has a solution within limits.
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<String>,
+    /// The closest joint values, if they were requested and there is no solution.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    closest: Option<ClosestEntry<'a>>,
 }
 
 #[derive(Serialize)]

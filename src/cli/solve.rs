@@ -16,7 +16,7 @@ use groebot_algebra::limits::PROGRAM_BYTES;
 use groebot_ik::derive::Source;
 use groebot_ik::derive::problem::input::COUPLED_NAME;
 use groebot_ik::folder::{self, PROGRAM, is_thin};
-use groebot_ik::solver::{ClosestOptions, Program, Solver};
+use groebot_ik::solver::{ClosestOptions, ErrorWeights, Program, Solver};
 use groebot_robot::document::read_text;
 
 const EXAMPLES: &str = "Examples:
@@ -39,9 +39,9 @@ for a --target without the value of its given joint is all arcs of solutions wit
 values at both ends of each arc with the joint that is at its limit, and the solution with the largest
 margin to the limits. Lengths of arcs, margins and distances are in rad; lengths of prismatic joints are
 relative to the characteristic length, in distances in their unit. Without a solution within limits, the
-reason is printed, and the exit status is 0. Targets in CSV, and --closest, need the value of the given
-joint; --closest-to finds the solution nearest to joint values. \"unsure\" marks results that may be
-wrong or incomplete (docs/redundant.md).
+reason is printed, and the exit status is 0. Targets in CSV need the value of the given joint;
+--closest-to finds the solution nearest to joint values. \"unsure\" marks results that may be wrong or
+incomplete (docs/redundant.md).
 
 A CSV may start with a line of names, which gives the order of its columns. x_m or x_mm is px in
 that unit, and so are phi_deg and A1_deg. Other columns that `fk`, `ik` and `solve` write are
@@ -50,9 +50,9 @@ ignored; unknown names are errors.
 Angles of solutions are moved into their joint's limits by whole turns where possible. A target
 without a solution is not an error. The output is \"unreachable: no solution\", an empty list of
 solutions (JSON), or a row with 0 solutions (CSV). With --closest it has the joint values with the
-least error, too: distance^2 + (2 LENGTH sin(angle / 2))^2. They do not respect joint limits, and the
-exit status is 0 as well. For chains that share actuators, text and JSON of
-a --target name the chain that fails, and the reason.";
+least error, too: distance^2 + (2 LENGTH sin(angle / 2))^2. They do not respect joint limits, except
+those of a redundant arm without the value of its given joint. The exit status is 0 as well. For
+chains that share actuators, text and JSON of a --target name the chain that fails, and the reason.";
 
 /// Computes all solutions of targets with a derived solver
 #[derive(clap::Args)]
@@ -69,7 +69,8 @@ pub struct Arguments {
     /// Use degrees instead of radians in targets, in JSON and CSV output and in tables of arcs (other text has both)
     #[arg(long)]
     degrees: bool,
-    /// For a target out of reach, also compute the joint values whose target has the least error
+    /// For a target out of reach, also compute the joint values whose target has the least error; of a redundant arm,
+    /// within limits
     #[arg(long)]
     closest: bool,
     /// The distance that counts as an angle of 1 rad in this error [unit of the inputs; default: the reach]
@@ -109,7 +110,9 @@ impl Arguments {
 
     /// The options for redundant solvers.
     fn arc_options(&self) -> ArcOptions<'_> {
-        ArcOptions { limits: &self.limits, closest_to: self.closest_to.as_deref() }
+        let weights = ErrorWeights::default();
+        let closest = self.closest.then(|| self.length.map_or(weights, |length| weights.length(length)));
+        ArcOptions { limits: &self.limits, closest_to: self.closest_to.as_deref(), closest }
     }
 
     /// Checks that no option is set that only a target without the value of a given joint has.
@@ -119,15 +122,6 @@ impl Arguments {
         }
         let text =
             "--limits and --closest-to are for a --target of a redundant solver without the value of its given joint";
-        Err(Error::new(ErrorKind::BadValue, text))
-    }
-
-    /// Checks that --closest is not set, for a target without the value of a given joint.
-    fn refuse_closest(&self) -> Result<()> {
-        if !self.closest {
-            return Ok(());
-        }
-        let text = "--closest needs the value of the given joint in the target; use --closest-to for the solution nearest to joint values";
         Err(Error::new(ErrorKind::BadValue, text))
     }
 
@@ -212,7 +206,6 @@ fn listed(program: &Program, given: &[String], angles: Angles, arguments: &Argum
     for (index, target) in given.iter().enumerate() {
         let count = target.split(',').count();
         if let Some((scanned, names)) = scanned.as_ref().and_then(|scanned| Some((scanned, scanned.names(count)?))) {
-            arguments.refuse_closest()?;
             let answer = targets::parse(&names, target)
                 .and_then(|numbers| scanned.answer(numbers))
                 .map_err(|error| error.with_context(format!("target `{}`", targets::shown(target))))?;
@@ -221,7 +214,6 @@ fn listed(program: &Program, given: &[String], angles: Angles, arguments: &Argum
             continue;
         }
         if let Some((arcs, names)) = redundant.as_ref().and_then(|arcs| Some((arcs, arcs.names(count)?))) {
-            arguments.refuse_closest()?;
             let answer = targets::parse(&names, target)
                 .and_then(|numbers| arcs.answer(numbers))
                 .map_err(|error| error.with_context(format!("target `{}`", targets::shown(target))))?;

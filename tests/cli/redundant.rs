@@ -140,9 +140,44 @@ fn wrong_options_are_refused() {
     assert!(error(&["--limits", "A4"]).contains("JOINT=LOW,HIGH"));
     assert!(error(&["--limits", "A4=nan,1"]).contains("NaN"));
     assert!(error(&["--closest-to", "1,2,3"]).contains("3 values"));
-    assert!(error(&["--closest"]).contains("--closest-to"));
+    assert!(error(&["--closest", "--length=-1"]).contains("give a positive number"));
     let planar = text(&root("derivations/planar_2r")).to_owned();
     assert!(refused(&["solve", &planar, "--target", "0.6,0.3", "--limits", "Shoulder=0,1"]).contains("redundant"));
+}
+
+/// Shoulder and wrist of an iiwa 14 are 0.82 m apart when it is stretched, and the flange is 0.126 m beyond the wrist. The shoulder is at a height of 0.36 m.
+#[test]
+fn closest_joint_values_of_a_target_out_of_reach() {
+    let folder = text(arm().folder.path());
+    let solve = |more: &[&str]| succeed(&[&["solve", folder, "--target", "0,0,2.5,0,0,0,1"], more].concat());
+    let page: Value = serde_json::from_str(&solve(&["--closest", "--json"])).unwrap();
+    let closest = &page["closest"];
+    let (distance, angle) = (closest["distance"].as_f64().unwrap(), closest["angle"].as_f64().unwrap());
+    assert!((distance - (2.5 - 0.36 - 0.82 - 0.126)).abs() < 1e-6 && angle < 1e-6, "{closest}");
+    assert!((closest["is_minimum"] == true) && closest["outside_limits"].as_array().unwrap().is_empty(), "{closest}");
+    assert!(solve(&["--closest"]).contains("m from the target; a local minimum, found from "));
+    assert!(serde_json::from_str::<Value>(&solve(&["--json"])).unwrap().get("closest").is_none());
+    // Reachable targets, and limits that exclude all solutions.
+    assert!(json(&["--closest"]).get("closest").is_none());
+    let narrow = json(&["--closest", "--limits", "A4=0,1"]);
+    let elbow = narrow["closest"]["q"][3].as_f64().unwrap();
+    assert!(
+        (-1e-9..=1.0 + 1e-9).contains(&elbow) && narrow["closest"]["distance"].as_f64().unwrap() > 1e-3,
+        "{narrow}"
+    );
+}
+
+/// Poses within limits need no value of the given joint; other measures do.
+#[test]
+fn a_map_counts_poses_within_limits() {
+    let folder = text(arm().folder.path());
+    let grid = ["--x", "0.4", "--y", "0.1:0.2:2", "--z", "0.5", "--orientations", "20"];
+    let map = |more: &[&str]| [&["reach", folder], &grid[..], more].concat();
+    let reported = succeed(&map(&["--measure", "limits"]));
+    assert!(reported.contains("reached within limits: 2 points") && !reported.contains("answers"), "{reported}");
+    assert!(refused(&map(&[])).contains("the measure `limits` is allowed"));
+    assert!(refused(&map(&["--measure", "manipulability", "--limits"])).contains("the measure `limits` is allowed"));
+    assert!(succeed(&map(&["--given", "0.4"])).contains("answers"));
 }
 
 /// The input files in the examples of the help exist in a clone.

@@ -10,9 +10,10 @@ use crate::solver::{Program, Unit};
 pub struct Entry {
     /// Number of orientations with a solution that counts.
     pub reached: u32,
-    /// Number of solutions that count.
+    /// Number of solutions that count. Of a redundant arm without the value of its given joint, it is `reached`.
     pub answers: u32,
-    /// Number of orientations on strata for which no derivation exists. They count as if they had no solutions.
+    /// Number of orientations on strata for which no derivation exists, and of those of a redundant arm at which a solution may have been missed. They count as
+    /// if they had no solutions.
     pub open: u32,
     /// The greatest manipulability of a solution. Zero if it is not measured, or nothing is reached.
     pub best: f32,
@@ -76,7 +77,7 @@ impl ReachMap {
         self.entries.iter().map(|entry| entry.reached as usize).sum()
     }
 
-    /// Number of targets on strata for which no derivation exists.
+    /// Number of targets on strata for which no derivation exists, and of those of a redundant arm at which a solution may have been missed.
     pub fn open(&self) -> usize {
         self.entries.iter().map(|entry| entry.open as usize).sum()
     }

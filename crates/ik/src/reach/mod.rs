@@ -9,6 +9,7 @@ mod grid;
 mod map;
 mod orientations;
 mod poses;
+mod redundant;
 mod request;
 mod stored;
 mod survey;

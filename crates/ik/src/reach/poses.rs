@@ -74,7 +74,8 @@ impl Poses {
             );
             return Err(Error::new(ErrorKind::Unsupported, text));
         };
-        let names = program.given_names();
+        let is_free = request.lacks_given(program);
+        let names = if is_free { Vec::new() } else { program.given_names() };
         if names.len() != given.len() || !given.iter().all(|value| value.is_finite()) {
             let required = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
             let text = format!(
@@ -90,7 +91,7 @@ impl Poses {
         }
         let given = program.given_joints.iter().map(|joint| joint.input).zip(given.iter().copied()).collect();
         Ok(Poses {
-            inputs: program.inputs.len(),
+            inputs: program.inputs.len() - if is_free { program.given_joints.len() } else { 0 },
             grid: request.grid,
             position,
             spread,

@@ -9,6 +9,7 @@ use rayon::prelude::*;
 
 use super::map::{Entry, ReachMap};
 use super::poses::Poses;
+use super::redundant::{AnyWithin, Found};
 use super::request::{Measure, Request};
 use crate::solver::{JointValue, Program, Solved, Solver};
 use crate::tolerances::REACH;
@@ -18,6 +19,8 @@ use groebot_runtime::tolerances::ACCEPTANCE;
 
 /// Number of targets that are solved at once.
 const PIECE: usize = 2048;
+/// The same of a redundant arm, whose targets take longer.
+const REDUNDANT_PIECE: usize = 64;
 
 /// A solver for many targets.
 pub trait Solves: Sync {
@@ -48,6 +51,8 @@ impl Solves for Solver {
 pub struct Survey<'a> {
     solver: &'a dyn Solves,
     program: &'a Program,
+    /// The solver of a redundant arm without the value of its given joint.
+    arm: Option<AnyWithin>,
     /// The chain whose manipulability is measured.
     chain: Option<&'a Chain>,
     /// A ball that the tip cannot leave.
@@ -72,9 +77,12 @@ struct Target {
 impl<'a> Survey<'a> {
     /// Prepares a map from a solver, its program, the chain of the program if there is one, and the options.
     ///
+    /// Without the value of the given joint, the targets of a redundant arm are solved by the program's redundant solver instead of `solver`
+    /// ([`RedundantSolver::any_within`](crate::solver::redundant::RedundantSolver::any_within), or that of its scanning solver).
+    ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] for a task without a position, for inputs other than one tip's position, orientation and given joints, and for manipulability
-    /// without a chain. [`ErrorKind::BadValue`]:
+    /// [`ErrorKind::Unsupported`] for a task without a position, for inputs other than one tip's position, orientation and given joints, for manipulability
+    /// without a chain, and for a redundant arm without given values unless the measure is [`Measure::Limits`]. [`ErrorKind::BadValue`]:
     /// - there are no orientations, or more than 10^6
     /// - the number of given values is not that of the given joints
     /// - there are several places on an axis without a coordinate in the task
@@ -85,6 +93,7 @@ impl<'a> Survey<'a> {
         chain: Option<&'a Chain>,
         request: &'a Request,
     ) -> Result<Self> {
+        let arm = AnyWithin::new(program, request)?;
         let poses = Poses::new(program, request)?;
         let turns: Vec<bool> =
             program.joints.iter().map(|joint| matches!(joint.value, JointValue::Angle { .. })).collect();
@@ -112,7 +121,7 @@ impl<'a> Survey<'a> {
         if let Some(limits) = &limits {
             check(limits, program)?;
         }
-        Ok(Survey { solver, program, chain, ball, request, poses, turns, limits })
+        Ok(Survey { solver, program, arm, chain, ball, request, poses, turns, limits })
     }
 
     /// Number of orientations at each place.
@@ -130,7 +139,7 @@ impl<'a> Survey<'a> {
     pub fn entries<'w>(&self, places: Range<usize>, watch: impl Into<Option<&'w Watch>>) -> Result<Vec<Entry>> {
         let watch = Watch::or_none(watch);
         assert!(places.end <= self.request.grid.places(), "the grid has {} places", self.request.grid.places());
-        let share = (PIECE / self.orientations()).max(1);
+        let share = (self.at_once() / self.orientations()).max(1);
         let done = AtomicUsize::new(0);
         let mut entries = vec![Entry::default(); places.len()];
         entries.par_chunks_mut(share).enumerate().try_for_each(|(number, entries)| {
@@ -153,6 +162,11 @@ impl<'a> Survey<'a> {
         Ok(ReachMap::of(self.program, self.request, self.orientations(), entries))
     }
 
+    /// Number of targets that are solved at once.
+    fn at_once(&self) -> usize {
+        if self.arm.is_some() { REDUNDANT_PIECE } else { PIECE }
+    }
+
     /// Counts at the places from index `first` on.
     fn fill(&self, first: usize, entries: &mut [Entry], watch: &Watch) -> Result<()> {
         let mut sums = vec![0.0; entries.len()];
@@ -162,10 +176,10 @@ impl<'a> Survey<'a> {
             // A run of consecutive places that may be reached.
             let run = (place..entries.len()).take_while(|place| !self.is_beyond(first + place)).count();
             let numbers = (first + place) * self.orientations()..(first + place + run) * self.orientations();
-            for start in numbers.clone().step_by(PIECE) {
+            for start in numbers.clone().step_by(self.at_once()) {
                 watch.check()?;
-                self.poses.write(start..numbers.end.min(start + PIECE), &mut targets, &mut kept);
-                self.piece(&targets, |number, target| {
+                self.poses.write(start..numbers.end.min(start + self.at_once()), &mut targets, &mut kept);
+                let take = |number: usize, target: &Target| {
                     let place = kept[number] / self.orientations() - first;
                     let entry = &mut entries[place];
                     entry.reached += u32::from(target.answers > 0);
@@ -173,7 +187,11 @@ impl<'a> Survey<'a> {
                     entry.open += u32::from(target.is_open);
                     entry.best = entry.best.max(target.best as f32);
                     sums[place] += target.best;
-                })?;
+                };
+                match &self.arm {
+                    Some(arm) => self.redundant_piece(arm, &targets, watch, take)?,
+                    None => self.piece(&targets, take)?,
+                }
             }
             place += run + 1;
         }
@@ -211,6 +229,26 @@ impl<'a> Survey<'a> {
             }
         })?;
         failed.map_or(Ok(()), Err)
+    }
+
+    /// Searches one solution of each target of a redundant arm. Each result is passed to `take` with its index.
+    fn redundant_piece(
+        &self,
+        arm: &AnyWithin,
+        targets: &[f64],
+        watch: &Watch,
+        mut take: impl FnMut(usize, &Target),
+    ) -> Result<()> {
+        for (number, target) in targets.chunks_exact(self.poses.inputs()).enumerate() {
+            watch.check()?;
+            let found = match arm.find(target) {
+                Err(error) if error.kind() == ErrorKind::Unsupported => Found::Unsure,
+                found => found?,
+            };
+            let (answers, is_open) = (u32::from(found == Found::Solution), found == Found::Unsure);
+            take(number, &Target { answers, is_open, ..Target::default() });
+        }
+        Ok(())
     }
 
     fn answer(&self, q: &[f64], free: u32, target: &mut Target) {

@@ -29,7 +29,7 @@ mod tolerant;
 mod validate;
 
 pub use about::About;
-pub use closest::{Closest, ClosestOptions};
+pub use closest::{Closest, ClosestOptions, ErrorWeights};
 pub(crate) use demand::{Demand, ParameterDemand};
 pub(crate) use facts::Facts;
 pub use forward::{Forward, Reached};

@@ -2,6 +2,7 @@
 
 mod arms;
 mod grids;
+mod redundant;
 mod stored;
 
 use std::path::PathBuf;

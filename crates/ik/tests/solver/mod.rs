@@ -11,6 +11,7 @@ mod placed;
 mod redundant;
 mod redundant_batch;
 mod redundant_closed;
+mod redundant_closest;
 mod redundant_corpus;
 mod redundant_scanned;
 mod refused;

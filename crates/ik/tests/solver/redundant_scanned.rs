@@ -9,14 +9,14 @@ use groebot_robot::kinematics::Chain;
 use groebot_robot::model::Robot;
 use groebot_robot::spatial::Pose;
 
-struct Arm {
-    chain: Chain,
-    program: Program,
-    solver: ScanningSolver,
+pub struct Arm {
+    pub chain: Chain,
+    pub program: Program,
+    pub solver: ScanningSolver,
 }
 
 /// A Panda on a rail from -1 to 1 m.
-fn arm() -> &'static Arm {
+pub fn arm() -> &'static Arm {
     static ARM: OnceLock<Arm> = OnceLock::new();
     ARM.get_or_init(|| {
         let rail = "<link name=\"floor\"/><joint name=\"rail\" type=\"prismatic\"><parent link=\"floor\"/><child link=\"panda_link0\"/>\
@@ -30,15 +30,15 @@ fn arm() -> &'static Arm {
     })
 }
 
-const READY: [f64; 8] = [0.4, 0.0, -0.8, 0.0, -2.3, 0.0, 1.55, 0.8];
+pub const READY: [f64; 8] = [0.4, 0.0, -0.8, 0.0, -2.3, 0.0, 1.55, 0.8];
 
 impl Arm {
-    fn pose(&self, q: &[f64]) -> Pose {
+    pub fn pose(&self, q: &[f64]) -> Pose {
         self.chain.forward(q).unwrap()
     }
 
     #[track_caller]
-    fn assert_solves(&self, pose: &Pose, q: &[f64]) {
+    pub fn assert_solves(&self, pose: &Pose, q: &[f64]) {
         let reached = self.pose(q);
         let off = (reached.translation.vector - pose.translation.vector).norm();
         assert!(off < 1e-9 && reached.rotation.angle_to(&pose.rotation) < 1e-7, "{q:?}: {off}");

@@ -83,8 +83,8 @@ pub(crate) fn layout(chain: &Chain) -> Layout {
     Layout { lines, slides: slides(chain), length: typical_length(&lines) }
 }
 
-/// The axis of a joint at zero.
-fn line(chain: &Chain, joint: usize) -> Line {
+/// The axis of a joint at zero joint values. The point of a prismatic joint is that of its description.
+pub(in crate::derive) fn line(chain: &Chain, joint: usize) -> Line {
     match &chain.screws()[joint] {
         Screw::Revolute(axis) => {
             Line { direction: axis.direction().into_inner().into(), point: axis.point().coords.into() }

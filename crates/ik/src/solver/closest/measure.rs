@@ -4,6 +4,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 
 use groebot_robot::kinematics::{Target, Task};
 
+use super::ErrorWeights;
 use crate::solver::Solver;
 use crate::solver::prepared::{Outline, ReachedNumbers};
 use crate::{Error, ErrorKind, Result};
@@ -25,7 +26,7 @@ pub(super) struct Measure<'a> {
     lever: [f64; 3],
     /// The weight of a chord, in units of the scale.
     weight: f64,
-    /// Joint values with those of given joints.
+    /// Joint values with those of given joints that are not unknown.
     given: Vec<f64>,
     /// The joints that the search may move.
     pub unknown: Vec<usize>,
@@ -38,8 +39,8 @@ pub(super) fn unsupported() -> Error {
 }
 
 impl<'a> Measure<'a> {
-    /// The error for `target`, whose numbers are valid.
-    pub fn new(solver: &'a Solver, target: &[f64], lever: [f64; 3], length: Option<f64>) -> Result<Self> {
+    /// The error for `target`, whose numbers are valid. The search may move the `unknown` joints.
+    pub fn new(solver: &'a Solver, target: &[f64], weights: &ErrorWeights, unknown: Vec<usize>) -> Result<Self> {
         let outline = &solver.outline;
         let task = outline.task.ok_or_else(unsupported)?;
         let joints = &outline.joints;
@@ -50,10 +51,10 @@ impl<'a> Measure<'a> {
             lengths: task.layout().lengths(),
             target: pairs_of(task, &target[..outline.own]),
             goal: Vec::new(),
-            lever,
-            weight: length.unwrap_or(outline.scale) / outline.scale,
+            lever: weights.tool,
+            weight: weights.length.unwrap_or(outline.scale) / outline.scale,
             given: joints.iter().map(value).collect(),
-            unknown: outline.independent(),
+            unknown,
         };
         measure.goal = measure.features(&measure.target);
         measure.reached_numbers(&measure.given, false).ok_or_else(unsupported)?;

@@ -9,6 +9,7 @@ mod starts;
 
 use groebot_robot::kinematics::{Target, Task};
 use groebot_robot::spatial::angle;
+use groebot_runtime::tolerances::ACCEPTANCE;
 
 use self::descent::{Descent, End};
 use self::measure::Measure;
@@ -28,7 +29,8 @@ pub struct Closest {
     pub distance: f64,
     /// The angle between `reached` and the target \[rad\]: of the rotation, of the direction, or about the axis; zero for a task without an orientation.
     pub angle: f64,
-    /// Whether the target is reachable, within the limits if these were given. `q` is then one of its solutions.
+    /// Whether the target is reachable, within the limits if these were given. `q` is then one of its solutions. Of a redundant arm, false does not prove that
+    /// the target is out of reach.
     pub reachable: bool,
     /// Whether `q` is a local minimum of the error: the gradient is zero and the Hessian has no negative eigenvalue, within rounding, in all directions that
     /// the limits permit.
@@ -76,9 +78,7 @@ impl ClosestOptions {
 
     fn check(&self, joints: usize) -> Result<()> {
         let bad = |text: String| Err(Error::new(ErrorKind::BadValue, text));
-        if let Some(length) = self.length.filter(|length| !(length.is_finite() && *length > 0.0)) {
-            return bad(format!("the length is {length}; give a positive number"));
-        }
+        check_length(self.length)?;
         let Some(limits) = &self.limits else { return Ok(()) };
         if limits.len() != joints {
             return bad(format!("{} pairs of limits given; give one for each of {joints} joints", limits.len()));
@@ -88,6 +88,47 @@ impl ClosestOptions {
             None => Ok(()),
         }
     }
+}
+
+fn check_length(length: Option<f64>) -> Result<()> {
+    match length.filter(|length| !(length.is_finite() && *length > 0.0)) {
+        Some(length) => Err(Error::new(ErrorKind::BadValue, format!("the length is {length}; give a positive number"))),
+        None => Ok(()),
+    }
+}
+
+/// The weight of rotation in the error of a target, and the point whose distance counts.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct ErrorWeights {
+    /// The length that weighs rotation against translation, as [`ClosestOptions::length`].
+    pub length: Option<f64>,
+    /// The translation of a tool in the tip frame, in the unit of the inputs: for a pose, the distance is that of the tool.
+    pub tool: [f64; 3],
+}
+
+impl ErrorWeights {
+    /// Sets the length that weighs rotation against translation.
+    #[must_use]
+    pub fn length(mut self, length: f64) -> Self {
+        self.length = Some(length);
+        self
+    }
+
+    /// Sets the translation of a tool in the tip frame.
+    #[must_use]
+    pub fn tool(mut self, translation: [f64; 3]) -> Self {
+        self.tool = translation;
+        self
+    }
+}
+
+/// Joints that a search moves.
+pub(super) struct LimitedJoints<'a> {
+    /// Their indices.
+    pub unknown: &'a [usize],
+    /// By joint of the program, its least and greatest value.
+    pub limits: &'a [[f64; 2]],
 }
 
 impl Solver {
@@ -125,19 +166,46 @@ impl Solver {
             None => self.solve_numbers(target)?,
             Some(limits) => self.solve_within(target, limits)?,
         };
-        let measure = Measure::new(self, target, lever, options.length)?;
+        let weights = ErrorWeights { length: options.length, tool: lever };
+        let measure = Measure::new(self, target, &weights, self.outline.independent())?;
         let errors = solutions.iter().filter_map(|solution| Some((measure.error(&solution.q)?, &solution.q)));
         if let Some((_, q)) = errors.min_by(|(a, _), (b, _)| a.total_cmp(b)) {
             return closest(&measure, q.clone(), true);
         }
+        self.searched(target, measure, options.limits.as_deref())
+    }
+
+    /// The closest joint values within limits of some joints, which may be given ones. The others have the values in the target. A `solution` is the result.
+    ///
+    /// # Errors
+    /// As [`Solver::closest_numbers`].
+    pub(super) fn closest_over(
+        &self,
+        target: &[f64],
+        joints: &LimitedJoints<'_>,
+        weights: &ErrorWeights,
+        solution: Option<Vec<f64>>,
+    ) -> Result<Closest> {
+        check_length(weights.length)?;
+        let measure = Measure::new(self, target, weights, joints.unknown.to_vec())?;
+        if let Some(q) = solution {
+            return closest(&measure, q, true);
+        }
+        let found = self.searched(target, measure, Some(joints.limits))?;
+        let most = [self.outline.scale, 1.0].map(|unit| ACCEPTANCE.residual * unit);
+        Ok(Closest { reachable: found.distance <= most[0] && found.angle <= most[1], ..found })
+    }
+
+    /// The least local minimum of the error that is found from the starting points.
+    fn searched(&self, target: &[f64], measure: Measure<'_>, limits: Option<&[[f64; 2]]>) -> Result<Closest> {
         let measures = measure.by_weight();
-        let descent = Descent::new(&measures, options.limits.as_deref()).ok_or_else(measure::unsupported)?;
+        let descent = Descent::new(&measures, limits).ok_or_else(measure::unsupported)?;
         let ends: Vec<End> = starts::search(self, target, &descent)?;
         let Some(best) = ends.iter().min_by(|a, b| a.error.total_cmp(&b.error)) else {
             return Err(Error::new(ErrorKind::BadValue, "no starting point has a finite error; give a smaller target"));
         };
         let is_same = |end: &&End| end.error - best.error <= CLOSEST.same * best.error;
-        let q = if options.limits.is_none() { self.wrapped(&best.q) } else { best.q.clone() };
+        let q = if limits.is_none() { self.wrapped(&best.q) } else { best.q.clone() };
         let found = closest(descent.measure, q, false)?;
         Ok(Closest {
             is_minimum: best.is_minimum,

@@ -58,9 +58,11 @@ fn nearby(solver: &Solver, target: &[f64], q: &[f64]) -> Result<Vec<Vec<f64>>> {
     };
     let Some(reached) = solver.reached(q) else { return Ok(Vec::new()) };
     let mut found = Vec::new();
+    let given = solver.outline.joints.iter().zip(q).filter_map(|(joint, value)| Some((joint.given?, *value)));
     for fraction in FRACTIONS {
         let mut near = target.to_vec();
         near[..lengths].iter_mut().zip(&reached).for_each(|(number, own)| *number = fraction * own);
+        given.clone().for_each(|(input, value)| near[input] = value);
         found.extend(solver.solve_numbers(&near)?.into_iter().map(|solution| solution.q));
     }
     Ok(found)

@@ -7,9 +7,11 @@
 mod arcs;
 mod batch;
 mod best;
+mod closest;
 mod limits;
 mod path;
 mod sampled;
+mod scan_samples;
 mod scanned;
 mod scanned_path;
 mod solver;

@@ -4,17 +4,12 @@
 
 use serde::Serialize;
 
-use super::{Absence, ArmTarget, Criterion, JointLimits, RedundantSolver, Within};
-use crate::solver::{Joint, MOST_SCANNED, Program, Redundancy, Unit};
+use super::scan_samples::{SAMPLES, ScanLimits, between};
+use super::{Absence, ArmTarget, Criterion, RedundantSolver, Within};
+use crate::solver::{Joint, Program, Redundancy, Unit};
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::kinematics::Target;
 
-/// The number of samples of one scanned joint, the ends of its range included. Each further joint multiplies it by [`FACTOR`].
-const SAMPLES: usize = 33;
-/// The factor of the number of samples for each further scanned joint.
-const FACTOR: usize = 4;
-/// The bases of the sequences of samples (J. H. Halton, Numerische Mathematik 2 (1960) 84-90).
-const BASES: [usize; MOST_SCANNED] = [2, 3, 5];
 /// The best samples that are refined, and the golden sections of each of their scanned joints.
 const REFINED: usize = 3;
 const SECTIONS: usize = 16;
@@ -25,7 +20,7 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// one joint, 132 of two, 528 of three, more next to solutions), so that narrow ranges of solutions may be missed: completeness is that of the samples.
 #[derive(Clone, Debug)]
 pub struct ScanningSolver {
-    program: Program,
+    pub(super) program: Program,
     redundancy: Redundancy,
     pub(super) scanned: Vec<usize>,
     /// The solver with the scanned joints held at zero.
@@ -50,13 +45,6 @@ pub(super) struct Sample {
     pub values: Vec<f64>,
     pub q: Vec<f64>,
     score: f64,
-}
-
-/// Limits of all joints of the chain, for the scanned ones and the others.
-pub(super) struct ScanLimits {
-    /// By scanned joint, the least and the greatest value.
-    pub ranges: Vec<[f64; 2]>,
-    pub own: JointLimits,
 }
 
 impl Program {
@@ -117,6 +105,14 @@ impl ScanningSolver {
     /// As [`RedundantSolver::target_of_numbers`].
     pub fn target_of_numbers(&self, numbers: &[f64]) -> Result<ArmTarget> {
         self.zero.target_of_numbers(numbers)
+    }
+
+    /// Checks limits of [`ScanningSolver::any_within`].
+    ///
+    /// # Errors
+    /// As [`RedundantSolver::limits_within`].
+    pub(crate) fn check_limits(&self, limits: &[[f64; 2]]) -> Result<()> {
+        self.scan_limits(Some(limits)).map(drop)
     }
 
     /// One solution of `target` within limits, by no criterion. `limits` has one pair per joint of the chain and narrows the described ones.
@@ -208,6 +204,15 @@ impl ScanningSolver {
     /// As [`ScanningSolver::best`].
     pub fn nearest(&self, target: &ArmTarget, limits: Option<&[[f64; 2]]>, q0: &[f64]) -> Result<Scanned> {
         self.best(target, limits, &Criterion::nearest(q0.to_vec()))
+    }
+
+    /// The largest magnitude among the equations' values of `target` at joint values `q` of the chain, as [`RedundantSolver::residual`].
+    pub fn residual(&self, target: &ArmTarget, q: &[f64]) -> f64 {
+        if q.len() != self.joints().len() {
+            return f64::NAN;
+        }
+        let row = |joints: &[usize]| -> Vec<f64> { joints.iter().map(|&joint| q[joint]).collect() };
+        self.at(&row(&self.scanned)).residual(target, &row(&self.zero.own))
     }
 
     /// The best solution with the scanned joints held.
@@ -319,78 +324,4 @@ impl ScanningSolver {
         let text = || format!("the criterion needs finite values for {count} joints");
         if fits { Ok(()) } else { Err(Error::new(ErrorKind::BadValue, text())) }
     }
-
-    /// The described limits, narrowed to `limits`. A scanned revolute joint without limits has one turn; a prismatic one has twice the scale of the program.
-    ///
-    /// # Errors
-    /// As [`RedundantSolver::limits_within`].
-    pub(super) fn scan_limits(&self, limits: Option<&[[f64; 2]]>) -> Result<ScanLimits> {
-        let described = self.limits();
-        let count = described.len();
-        let narrow = limits.map_or_else(|| described.clone(), <[[f64; 2]]>::to_vec);
-        if narrow.len() != count {
-            let text = format!("{} pairs of limits given; give one for each of {count} joints", narrow.len());
-            return Err(Error::new(ErrorKind::BadValue, text));
-        }
-        let range = |&joint: &usize| {
-            let ([least, greatest], [low, high]) = (described[joint], narrow[joint]);
-            let half =
-                if self.joints()[joint].unit == Unit::Radian { std::f64::consts::PI } else { self.program.scale };
-            let bounds = match [least.max(low), greatest.min(high)] {
-                [low, high] if low.is_finite() && high.is_finite() => [low, high],
-                [low, _] if low.is_finite() => [low, low + 2.0 * half],
-                [_, high] if high.is_finite() => [high - 2.0 * half, high],
-                _ => [-half, half],
-            };
-            let name = &self.joints()[joint].name;
-            if low.is_nan() || high.is_nan() || bounds[0] > bounds[1] {
-                let text =
-                    format!("the limits of `{name}` are {low} and {high}; only {least} to {greatest} is allowed");
-                return Err(Error::new(ErrorKind::BadValue, text));
-            }
-            Ok(bounds)
-        };
-        let ranges = self.scanned.iter().map(range).collect::<Result<_>>()?;
-        let own: Vec<[f64; 2]> = self.zero.own.iter().map(|&joint| narrow[joint]).collect();
-        Ok(ScanLimits { ranges, own: self.zero.limits_within(&own)? })
-    }
-
-    /// Values of the scanned joints: the middle of the ranges first, then a sequence that fills them evenly. The last ones are the corners.
-    fn samples(&self, ranges: &[[f64; 2]]) -> Vec<Vec<f64>> {
-        let count = ranges.len();
-        let corners = 1 << count;
-        let inner = (SAMPLES * FACTOR.pow(count as u32 - 1)).saturating_sub(corners);
-        let place = |share: f64, [low, high]: &[f64; 2]| low + share * (high - low);
-        let inside = (1..=inner).map(|index| {
-            ranges.iter().zip(BASES).map(|(range, base)| place(radical_inverse(index, base), range)).collect()
-        });
-        let corner = |corner: usize| {
-            ranges.iter().enumerate().map(|(k, range)| place((corner >> k & 1) as f64, range)).collect::<Vec<f64>>()
-        };
-        inside.chain((0..corners).map(corner)).collect()
-    }
-}
-
-/// Values between neighbouring samples of one scanned joint of which at least one is reachable beyond limits: quarters of the intervals.
-fn between(absences: &[(Vec<f64>, Option<Absence>)]) -> Vec<Vec<f64>> {
-    let is_beyond = |absence: &Option<Absence>| matches!(absence, Some(Absence::Beyond(_)));
-    let mut row: Vec<(f64, bool)> = absences
-        .iter()
-        .filter(|(values, _)| values.len() == 1)
-        .map(|(values, absence)| (values[0], is_beyond(absence)))
-        .collect();
-    row.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let pairs = row.windows(2).filter(|pair| pair[0].1 || pair[1].1);
-    pairs.flat_map(|pair| [0.25, 0.5, 0.75].map(|share| vec![pair[0].0 + share * (pair[1].0 - pair[0].0)])).collect()
-}
-
-/// The digits of `index` in a base, mirrored at the point.
-fn radical_inverse(mut index: usize, base: usize) -> f64 {
-    let (mut value, mut share) = (0.0, 1.0);
-    while index > 0 {
-        share /= base as f64;
-        value += share * (index % base) as f64;
-        index /= base;
-    }
-    value
 }

@@ -7,8 +7,8 @@
 use rayon::prelude::*;
 
 use super::path::{ArmJump, ArmPath, PathOptions};
-use super::scanned::{ScanLimits, ScanningSolver};
-use super::{ArmTarget, Criterion};
+use super::scan_samples::ScanLimits;
+use super::{ArmTarget, Criterion, ScanningSolver};
 use crate::solver::Unit;
 use crate::{Error, ErrorKind, Result, Watch};
 

@@ -1,14 +1,10 @@
 //! The data of a redundant solver: axes, limits, and the other programs.
 
-use num_traits::ToPrimitive;
-
 use super::sections::closed_search;
 use super::{Part, RedundantChain};
+use crate::derive::eigenvalue::line;
 use crate::derive::{AnyView, ChainProblem, Derivation};
-use crate::solver::eigenvalue::Line;
 use crate::solver::{Redundancy, RedundantPart};
-use groebot_robot::kinematics::Chain;
-use groebot_robot::spatial::Screw;
 
 /// The data of `redundancy` with the main derivation `main`, for the chain of `problem` as described.
 pub(in crate::derive) fn data(problem: &ChainProblem, main: &Derivation, redundancy: &RedundantChain) -> Redundancy {
@@ -33,18 +29,5 @@ pub(in crate::derive) fn data(problem: &ChainProblem, main: &Derivation, redunda
         rotation: std::array::from_fn(|i| std::array::from_fn(|j| rotation[(i, j)])),
         limits: chain.joints().iter().map(|joint| joint.limits.map(|(low, high)| [low, high])).collect(),
         parts: redundancy.parts.iter().map(part).collect(),
-    }
-}
-
-/// The axis of a joint at zero joint values. The point of a prismatic joint is that of its description.
-fn line(chain: &Chain, joint: usize) -> Line {
-    match &chain.screws()[joint] {
-        Screw::Revolute(axis) => {
-            Line { direction: axis.direction().into_inner().into(), point: axis.point().coords.into() }
-        }
-        Screw::Prismatic(direction) => {
-            let point = chain.joints()[joint].point.each_ref().map(|entry| entry.to_f64().unwrap_or(0.0));
-            Line { direction: direction.into_inner().into(), point }
-        }
     }
 }
