@@ -172,7 +172,7 @@ fn closest_joint_values_of_a_target_out_of_reach() {
 fn a_map_counts_poses_within_limits() {
     let folder = text(arm().folder.path());
     let grid = ["--x", "0.4", "--y", "0.1:0.2:2", "--z", "0.5", "--orientations", "20"];
-    let map = |more: &[&str]| [&["reach", folder], &grid[..], more].concat();
+    let map = |more: &[&'static str]| [&["reach", folder], &grid[..], more].concat();
     let reported = succeed(&map(&["--measure", "limits"]));
     assert!(reported.contains("reached within limits: 2 points") && !reported.contains("answers"), "{reported}");
     assert!(refused(&map(&[])).contains("the measure `limits` is allowed"));
