@@ -31,15 +31,11 @@ fn closed(derivation: &Derivation) -> Option<Line> {
     let closed = program.redundancy.as_ref()?.closed.as_ref()?;
     let name = |line: Line, joint: usize| line.name(&program.joints[joint].name);
     let line = name(Line::of("Curves that touch no limit are searched at values of "), closed.grid);
-    Some(
-        closed
-            .sections
-            .iter()
-            .fold(line, |line, section| {
-                name(line.words(", and at "), section.joint).words(&format!(" = {}", section.value))
-            })
-            .words("."),
-    )
+    let line = closed
+        .sections
+        .iter()
+        .fold(line, |line, section| name(line.words(&format!(", and at {} of ", section.value)), section.joint));
+    Some(line.words("."))
 }
 
 /// By joint, the solver with this joint given.

@@ -24,8 +24,10 @@ const DIFFERENCE: f64 = 1e-5;
 const BESIDE: f64 = 0.2;
 /// A joint has one value at joint vectors whose values differ by at most this.
 const EQUAL: f64 = 1e-3;
+/// The least singular value of the task's Jacobian where its rows are independent.
+const INDEPENDENT: f64 = 1e-4;
 /// The least share of joint vectors for which a section is made.
-const LEAST: f64 = 0.02;
+const LEAST: f64 = 0.04;
 /// Of the sections with at least this share of the most joint vectors, that of a quick solver is chosen.
 const AS_MANY: f64 = 0.9;
 /// Another joint than the planner's is the grid if it moves so many times as far; so many times with a slower solver.
@@ -198,12 +200,12 @@ impl Arm<'_> {
     fn is_passed(&self, section: &Section) -> bool {
         let [low, high] = self.range(section.joint);
         let mut random = SplitMix64::new(1);
-        let mut volume = || {
+        let mut least = || {
             let mut q = self.random(&mut random);
             q[section.joint] = section.value;
             self.chain.task_jacobian(&q, &[section.joint]).singular_values().min()
         };
-        section.value >= low && section.value <= high && (0..5).any(|_| volume() > EQUAL * EQUAL)
+        section.value >= low && section.value <= high && (0..5).any(|_| least() > INDEPENDENT)
     }
 
     /// The joint that moves farthest relative to its range, or the planner's joint if that moves nearly as far.
