@@ -153,7 +153,7 @@ def test_given_joints_and_threads_and_seeds():
         ({"w": 1.0}, "none of them"),
         ([0.1, 0.2], "three axes"),
         ({"x": [0, 1, 3, 4.0]}, "not evenly spaced"),
-        ({"x": (1.0, 0.0, 4)}, "lesser"),
+        ({"x": (1.0, 0.0, 4)}, "lower end first"),
         ({"x": (0.0, 1.0, 0)}, "no places|without places"),
         ({"x": np.zeros((2, 2))}, "shape"),
         ({"x": np.nan}, "finite"),
