@@ -66,6 +66,11 @@ impl ArcQuestion {
             None => Criterion::Margin,
         };
         let closest = options.closest;
+        if let Some(length) = closest.and_then(|weights| weights.length)
+            && !(length > 0.0 && length.is_finite())
+        {
+            return Err(Error::new(ErrorKind::BadValue, format!("--length {length}: give a positive number")));
+        }
         Ok(Some(ArcQuestion { forms: Forms::new(&bare), bare, solver, limits, criterion, closest, angles }))
     }
 

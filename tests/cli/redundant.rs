@@ -155,7 +155,7 @@ fn closest_joint_values_of_a_target_out_of_reach() {
     let (distance, angle) = (closest["distance"].as_f64().unwrap(), closest["angle"].as_f64().unwrap());
     assert!((distance - (2.5 - 0.36 - 0.82 - 0.126)).abs() < 1e-6 && angle < 1e-6, "{closest}");
     assert!((closest["is_minimum"] == true) && closest["outside_limits"].as_array().unwrap().is_empty(), "{closest}");
-    assert!(solve(&["--closest"]).contains("m from the target; a local minimum, found from "));
+    assert!(solve(&["--closest"]).contains(" from the target; a local minimum, found from "));
     assert!(serde_json::from_str::<Value>(&solve(&["--json"])).unwrap().get("closest").is_none());
     // Reachable targets, and limits that exclude all solutions.
     assert!(json(&["--closest"]).get("closest").is_none());

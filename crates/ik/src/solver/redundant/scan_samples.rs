@@ -1,8 +1,7 @@
-//! Samples of scanned joints: [`ScanLimits`], [`between`].
+//! Samples of scanned joints: [`ScanLimits`], [`samples`], [`between`].
 
-use super::{Absence, JointLimits, ScanningSolver};
-use crate::solver::{MOST_SCANNED, Unit};
-use crate::{Error, ErrorKind, Result};
+use super::{Absence, JointLimits};
+use crate::solver::MOST_SCANNED;
 
 /// The number of samples of one scanned joint, the ends of its range included. Each further joint multiplies it by [`FACTOR`].
 pub(super) const SAMPLES: usize = 33;
@@ -18,56 +17,19 @@ pub(super) struct ScanLimits {
     pub own: JointLimits,
 }
 
-impl ScanningSolver {
-    /// The described limits, narrowed to `limits`. A scanned revolute joint without limits has one turn; a prismatic one has twice the scale of the program.
-    ///
-    /// # Errors
-    /// As [`super::RedundantSolver::limits_within`].
-    pub(super) fn scan_limits(&self, limits: Option<&[[f64; 2]]>) -> Result<ScanLimits> {
-        let described = self.limits();
-        let count = described.len();
-        let narrow = limits.map_or_else(|| described.clone(), <[[f64; 2]]>::to_vec);
-        if narrow.len() != count {
-            let text = format!("{} pairs of limits given; give one for each of {count} joints", narrow.len());
-            return Err(Error::new(ErrorKind::BadValue, text));
-        }
-        let range = |&joint: &usize| {
-            let ([least, greatest], [low, high]) = (described[joint], narrow[joint]);
-            let half =
-                if self.joints()[joint].unit == Unit::Radian { std::f64::consts::PI } else { self.program.scale };
-            let bounds = match [least.max(low), greatest.min(high)] {
-                [low, high] if low.is_finite() && high.is_finite() => [low, high],
-                [low, _] if low.is_finite() => [low, low + 2.0 * half],
-                [_, high] if high.is_finite() => [high - 2.0 * half, high],
-                _ => [-half, half],
-            };
-            let name = &self.joints()[joint].name;
-            if low.is_nan() || high.is_nan() || bounds[0] > bounds[1] {
-                let text =
-                    format!("the limits of `{name}` are {low} and {high}; only {least} to {greatest} is allowed");
-                return Err(Error::new(ErrorKind::BadValue, text));
-            }
-            Ok(bounds)
-        };
-        let ranges = self.scanned.iter().map(range).collect::<Result<_>>()?;
-        let own: Vec<[f64; 2]> = self.zero.own.iter().map(|&joint| narrow[joint]).collect();
-        Ok(ScanLimits { ranges, own: self.zero.limits_within(&own)? })
-    }
-
-    /// Values of the scanned joints: the middle of the ranges first, then a sequence that fills them evenly. The last ones are the corners.
-    pub(super) fn samples(&self, ranges: &[[f64; 2]]) -> Vec<Vec<f64>> {
-        let count = ranges.len();
-        let corners = 1 << count;
-        let inner = (SAMPLES * FACTOR.pow(count as u32 - 1)).saturating_sub(corners);
-        let place = |share: f64, [low, high]: &[f64; 2]| low + share * (high - low);
-        let inside = (1..=inner).map(|index| {
-            ranges.iter().zip(BASES).map(|(range, base)| place(radical_inverse(index, base), range)).collect()
-        });
-        let corner = |corner: usize| {
-            ranges.iter().enumerate().map(|(k, range)| place((corner >> k & 1) as f64, range)).collect::<Vec<f64>>()
-        };
-        inside.chain((0..corners).map(corner)).collect()
-    }
+/// Values of the scanned joints: the middle of the ranges first, then a sequence that fills them evenly. The last ones are the corners.
+pub(super) fn samples(ranges: &[[f64; 2]]) -> Vec<Vec<f64>> {
+    let count = ranges.len();
+    let corners = 1 << count;
+    let inner = (SAMPLES * FACTOR.pow(count as u32 - 1)).saturating_sub(corners);
+    let place = |share: f64, [low, high]: &[f64; 2]| low + share * (high - low);
+    let inside = (1..=inner).map(|index| {
+        ranges.iter().zip(BASES).map(|(range, base)| place(radical_inverse(index, base), range)).collect()
+    });
+    let corner = |corner: usize| {
+        ranges.iter().enumerate().map(|(k, range)| place((corner >> k & 1) as f64, range)).collect::<Vec<f64>>()
+    };
+    inside.chain((0..corners).map(corner)).collect()
 }
 
 /// Values between neighbouring samples of one scanned joint of which at least one is reachable beyond limits: quarters of the intervals.

@@ -4,7 +4,7 @@
 
 use serde::Serialize;
 
-use super::scan_samples::{SAMPLES, ScanLimits, between};
+use super::scan_samples::{SAMPLES, ScanLimits, between, samples};
 use super::{Absence, ArmTarget, Criterion, RedundantSolver, Within};
 use crate::solver::{Joint, Program, Redundancy, Unit};
 use crate::{Error, ErrorKind, Result};
@@ -107,6 +107,41 @@ impl ScanningSolver {
         self.zero.target_of_numbers(numbers)
     }
 
+    /// The described limits, narrowed to `limits`. A scanned revolute joint without limits has one turn; a prismatic one has twice the scale of the program.
+    ///
+    /// # Errors
+    /// As [`super::RedundantSolver::limits_within`].
+    pub(super) fn scan_limits(&self, limits: Option<&[[f64; 2]]>) -> Result<ScanLimits> {
+        let described = self.limits();
+        let count = described.len();
+        let narrow = limits.map_or_else(|| described.clone(), <[[f64; 2]]>::to_vec);
+        if narrow.len() != count {
+            let text = format!("{} pairs of limits given; give one for each of {count} joints", narrow.len());
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        let range = |&joint: &usize| {
+            let ([least, greatest], [low, high]) = (described[joint], narrow[joint]);
+            let half =
+                if self.joints()[joint].unit == Unit::Radian { std::f64::consts::PI } else { self.program.scale };
+            let bounds = match [least.max(low), greatest.min(high)] {
+                [low, high] if low.is_finite() && high.is_finite() => [low, high],
+                [low, _] if low.is_finite() => [low, low + 2.0 * half],
+                [_, high] if high.is_finite() => [high - 2.0 * half, high],
+                _ => [-half, half],
+            };
+            let name = &self.joints()[joint].name;
+            if low.is_nan() || high.is_nan() || bounds[0] > bounds[1] {
+                let text =
+                    format!("the limits of `{name}` are {low} and {high}; only {least} to {greatest} is allowed");
+                return Err(Error::new(ErrorKind::BadValue, text));
+            }
+            Ok(bounds)
+        };
+        let ranges = self.scanned.iter().map(range).collect::<Result<_>>()?;
+        let own: Vec<[f64; 2]> = self.zero.own.iter().map(|&joint| narrow[joint]).collect();
+        Ok(ScanLimits { ranges, own: self.zero.limits_within(&own)? })
+    }
+
     /// Checks limits of [`ScanningSolver::any_within`].
     ///
     /// # Errors
@@ -122,7 +157,7 @@ impl ScanningSolver {
     pub fn any_within(&self, target: &ArmTarget, limits: Option<&[[f64; 2]]>) -> Result<Scanned> {
         let limits = self.scan_limits(limits)?;
         let mut absences = Vec::new();
-        for values in self.samples(&limits.ranges) {
+        for values in samples(&limits.ranges) {
             let found = self.within(target, &limits, &values)?;
             match found.q {
                 Some(q) => return Ok(Scanned { q: Some(q), value: None, absence: None }),
@@ -165,7 +200,7 @@ impl ScanningSolver {
     pub fn best(&self, target: &ArmTarget, limits: Option<&[[f64; 2]]>, criterion: &Criterion) -> Result<Scanned> {
         let limits = self.scan_limits(limits)?;
         self.check(criterion)?;
-        let mut list = self.samples(&limits.ranges);
+        let mut list = samples(&limits.ranges);
         list.extend(self.preferred(criterion, &limits.ranges));
         let (mut found, mut absences) = (Vec::new(), Vec::new());
         for values in list {

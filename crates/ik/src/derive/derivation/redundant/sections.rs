@@ -15,17 +15,12 @@ use groebot_robot::spatial::Screw;
 /// The number of random joint vectors from which dependent ones are searched, and of steps of Newton's method.
 const STARTS: usize = 300;
 const STEPS: usize = 40;
-/// Maximal length of a step, and the residual at its end.
+/// Maximal length of a step.
 const LONGEST: f64 = 0.5;
-const DEPENDENT: f64 = 1e-8;
-/// The step of differences.
-const DIFFERENCE: f64 = 1e-5;
 /// Joint values this far beyond limits are near enough to them for closed curves within limits.
 const BESIDE: f64 = 0.2;
 /// A joint has one value at joint vectors whose values differ by at most this.
 const EQUAL: f64 = 1e-3;
-/// The least singular value of the task's Jacobian where its rows are independent.
-const INDEPENDENT: f64 = 1e-4;
 /// The least share of joint vectors for which a section is made.
 const LEAST: f64 = 0.04;
 /// Of the sections with at least this share of the most joint vectors, that of a quick solver is chosen.
@@ -113,11 +108,13 @@ impl Arm<'_> {
     fn descend(&self, mut q: Vec<f64>) -> Option<Dependent> {
         let jacobian = |q: &[f64]| self.chain.task_jacobian(q, &[]);
         let (n, m) = (self.count(), self.chain.task().freedoms());
+        // The step of central differences for which their errors of rounding and of the method are alike.
+        let difference = f64::EPSILON.cbrt();
         let mut u = jacobian(&q).svd(true, false).u?.column(m - 1).into_owned();
         for _ in 0..STEPS {
             let now = jacobian(&q);
             let values = now.tr_mul(&u);
-            if values.amax() < DEPENDENT {
+            if values.amax() < f64::EPSILON.sqrt() {
                 return self.moves(&now).map(|moves| Dependent {
                     q: q.iter().enumerate().map(|(joint, value)| self.beside(joint, *value)).collect(),
                     moves,
@@ -132,7 +129,7 @@ impl Arm<'_> {
                     q[joint] = value;
                     product
                 };
-                let slope = (at(DIFFERENCE) - at(-DIFFERENCE)) / (2.0 * DIFFERENCE);
+                let slope = (at(difference) - at(-difference)) / (2.0 * difference);
                 slopes.view_mut((0, joint), (n, 1)).copy_from(&slope);
             }
             slopes.view_mut((0, n), (n, m)).copy_from(&now.transpose());
@@ -205,7 +202,7 @@ impl Arm<'_> {
             q[section.joint] = section.value;
             self.chain.task_jacobian(&q, &[section.joint]).singular_values().min()
         };
-        section.value >= low && section.value <= high && (0..5).any(|_| least() > INDEPENDENT)
+        section.value >= low && section.value <= high && (0..5).any(|_| least() > 0.1 * EQUAL)
     }
 
     /// The joint that moves farthest relative to its range, or the planner's joint if that moves nearly as far.
