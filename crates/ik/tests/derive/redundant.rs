@@ -190,4 +190,12 @@ fn malformed_redundancies_are_refused() {
         part.unwrap().joints[5].name = "another".to_owned();
     });
     assert!(text.contains("another task, other joints"), "{text}");
+    let text = malformed(|program| program.redundancy.as_mut().unwrap().closed.as_mut().unwrap().grid = 9);
+    assert!(text.contains("joints with a program"), "{text}");
+    let text = malformed(|program| {
+        let redundancy = program.redundancy.as_mut().unwrap();
+        let section = redundancy.closed.as_mut().unwrap().sections.first_mut();
+        section.expect("an iiwa has sections").value = f64::INFINITY;
+    });
+    assert!(text.contains("finite values"), "{text}");
 }

@@ -98,14 +98,6 @@ impl Redundancy {
         ensure(is_rotation, "the rotation of the tip is not a rotation")?;
         let are_ordered = self.limits.iter().flatten().all(|[low, high]| low <= high);
         ensure(are_ordered, "limits: the least, then the greatest value")?;
-        if let Some(closed) = &self.closed {
-            let is_solved =
-                |joint: usize| matches!(self.parts.get(joint), Some(RedundantPart::Main | RedundantPart::Program(_)));
-            let is_known = is_solved(closed.grid) && closed.sections.iter().all(|section| is_solved(section.joint));
-            ensure(is_known && scanned.is_empty(), "closed curves are searched at values of joints with a program")?;
-            let is_finite = closed.sections.iter().all(|section| section.value.is_finite());
-            ensure(is_finite && closed.sections.len() <= MOST_SECTIONS, "at most eight sections with finite values")?;
-        }
         self.parts.iter().enumerate().try_for_each(|(joint, part)| match part {
             RedundantPart::Main => ensure(self.gives(main, joint), "the main part is not that of the given joint"),
             RedundantPart::Program(other) => {
@@ -117,7 +109,17 @@ impl Redundancy {
                 ensure(!self.gives(main, joint), "the given joint has no program")
             }
             RedundantPart::Scanned => Ok(()),
-        })
+        })?;
+        self.closed.as_ref().map_or(Ok(()), |closed| self.validate_closed(closed))
+    }
+
+    fn validate_closed(&self, closed: &ClosedSearch) -> Result<()> {
+        let is_solved =
+            |joint: usize| matches!(self.parts.get(joint), Some(RedundantPart::Main | RedundantPart::Program(_)));
+        let is_known = is_solved(closed.grid) && closed.sections.iter().all(|section| is_solved(section.joint));
+        ensure(is_known && self.scanned().is_empty(), "closed curves are searched at values of joints with a program")?;
+        let is_finite = closed.sections.iter().all(|section| section.value.is_finite());
+        ensure(is_finite && closed.sections.len() <= MOST_SECTIONS, "at most eight sections with finite values")
     }
 
     /// The indices of the joints that are scanned.
