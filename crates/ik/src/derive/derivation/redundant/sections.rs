@@ -240,6 +240,6 @@ fn most(joint: usize, dependent: &[&Dependent], barren: &[Section]) -> (Section,
             (best, count) = (middle, last + 1 - first);
         }
     }
-    // The last digits depend on the machine.
-    (Section { joint, value: (best * 1e6).round() / 1e6 }, count)
+    // The last digits depend on the machine. The sum makes 0 of -0.
+    (Section { joint, value: (best * 1e6).round() / 1e6 + 0.0 }, count)
 }
