@@ -63,21 +63,8 @@ pub(super) fn outline(program: &Program) -> Outline {
 
 /// The data of a redundant arm as an initialiser.
 fn arm(arm: &Arm) -> String {
-    let Arm {
-        count,
-        directions,
-        points,
-        slides,
-        tip,
-        task,
-        length,
-        limits,
-        given,
-        scanned,
-        grid,
-        sections,
-        section_count,
-    } = arm;
+    let Arm { count, directions, points, slides, tip, task, length, limits, .. } = arm;
+    let Arm { given, scanned, grid, sections, section_count, .. } = arm;
     let (kind, direction, axis, coordinates) = match task {
         Task::Pose => ("POSE", [0.0; 3], 0, [0; 2]),
         Task::Position => ("POSITION", [0.0; 3], 0, [0; 2]),

@@ -37,21 +37,8 @@ pub fn emit(program: &Program) -> String {
 
 /// The data of a redundant arm as an expression.
 fn arm(arm: &Arm) -> String {
-    let Arm {
-        count,
-        directions,
-        points,
-        slides,
-        tip,
-        task,
-        length,
-        limits,
-        given,
-        scanned,
-        grid,
-        sections,
-        section_count,
-    } = arm;
+    let Arm { count, directions, points, slides, tip, task, length, limits, .. } = arm;
+    let Arm { given, scanned, grid, sections, section_count, .. } = arm;
     let limits = format!("{limits:?}").replace("inf", "f64::INFINITY");
     let given = given.map(|given| format!("redundant::Given::{given:?}")).join(", ");
     let sections = sections.map(|section| format!("redundant::{section:?}")).join(", ");
