@@ -1,11 +1,17 @@
-"""Plays a walk in open loop on a rigid-body model of its robot in MuJoCo: one run of `groebot simulate`, which contains this script.
+"""Plays a walk on a rigid-body model of its robot in MuJoCo: one run of `groebot simulate`, which contains this script.
 
     python play.py robot.xml walk.csv answer.csv [--feet LEFT,RIGHT] [--servo STIFFNESS,DAMPING,ARMATURE] [--friction F] [--slope ROLL,PITCH]
-                   [--mass FACTOR] [--gain FACTOR] [--latency SECONDS] [--frames FOLDER]
+                   [--mass FACTOR] [--gain FACTOR] [--latency SECONDS] [--push TIME,NEWTON,SECONDS,DEGREES] [--noise FACTOR]
+                   [--feedback PERIOD --soles NUMBERS] [--frames FOLDER]
 
 robot.xml is the output of `groebot export ROBOT --to mjcf`. walk.csv is a trajectory with a base and the contacts `left` and `right`. answer.csv is a
 trajectory with the same times until the robot falls: joints, base, soles and their floor contact, the zero moment point from the contact forces of the last 20
 ms, torques. The motor parameters and the time of the fall are written to standard output as JSON.
+
+With --feedback, the names of the joints and the nominal stiffness of their motors are first written to standard output, as JSON. Then, each PERIOD, the state is one line of numbers there: time
+[s], joint values, orientation of the base (quaternion xyzw, from the base to a world whose z axis is vertical), its angular velocity in its own frame
+[rad/s], and for the left and the right sole force [N] and moment [N m] in the frame of the sole. A line of standard input is the answer: the targets of
+the joints, then their velocities.
 """
 
 import argparse
@@ -38,6 +44,8 @@ MOST_TILT = math.radians(45)
 LEAST_HEIGHT = 0.6
 # Fraction of the weight above which a foot is in contact.
 PRESSED = 0.01
+# Standard deviations of measurements with --noise 1: joint values [rad], orientation [rad], angular velocity [rad/s], forces and moments by their magnitude.
+NOISE = 5e-4, 5e-3, 2e-2, 2e-2
 POSE = ("x [m]", "y [m]", "z [m]", "qx [1]", "qy [1]", "qz [1]", "qw [1]")
 
 
@@ -61,6 +69,7 @@ class Robot:
         # Rotation of gravity instead of the floor keeps the floor at z = 0.
         across, down = math.cos(pitch) * math.sin(roll), math.cos(pitch) * math.cos(roll)
         model.opt.gravity[:] = [GRAVITY * math.sin(pitch), -GRAVITY * across, -GRAVITY * down]
+        self.level = turn_to_z(-model.opt.gravity / GRAVITY)
         model.geom_friction[:, 0] = given.friction
         self.mount(given.servo, given.gain)
         model.body_mass[:] *= given.mass
@@ -89,6 +98,7 @@ class Robot:
         ]
         self.wrench = numpy.zeros(6)
         self.weight = model.body_subtreemass[0] * GRAVITY
+        self.push, self.feedback = given.push, Feedback(self, given) if given.feedback else None
 
     def mount(self, servo, gain):
         """Adds the motor of each joint."""
@@ -109,12 +119,27 @@ class Robot:
             model.dof_armature[dof] = max(model.dof_armature[dof], self.armature)
 
     def command(self, time):
-        """Sets the commands of the servos by linear interpolation between rows."""
+        """Sets the commands of the servos: those of the feedback, or by linear interpolation between rows."""
+        self.press(time)
+        if self.feedback:
+            self.feedback.command(time)
+            return
         times, time = self.walk["time"], time - self.latency
         row = min(max(int(numpy.searchsorted(times, time, "right")) - 1, 0), len(times) - 1)
         after = min(row + 1, len(times) - 1)
         share = (time - times[row]) / (times[after] - times[row]) if after > row else 0.0
         self.data.ctrl[:] = self.commands[row] + max(share, 0.0) * (self.commands[after] - self.commands[row])
+
+    def press(self, time):
+        """Pushes the torso at its centre of mass."""
+        if self.push:
+            start, newton, duration, degrees = self.push
+            share = newton if start <= time < start + duration else 0.0
+            angle = math.radians(degrees) + self.heading()
+            self.data.xfrc_applied[self.torso, :2] = share * math.cos(angle), share * math.sin(angle)
+
+    def heading(self):
+        return math.atan2(self.data.xmat[self.torso][3], self.data.xmat[self.torso][0])
 
     def fell(self):
         tilted = self.data.xmat[self.torso][8] < math.cos(MOST_TILT)
@@ -149,6 +174,80 @@ class Robot:
             for side in (0, 1):
                 sums[3 + side] += force * (foot in self.shapes[side])
         return numpy.array(sums)
+
+
+class Feedback:
+    """Writes states to standard output, and reads the targets of the joints from standard input."""
+
+    def __init__(self, robot, given):
+        self.robot, self.period, self.latency = robot, given.feedback, given.latency
+        self.next, self.late, self.random, self.noise = 0.0, [], numpy.random.default_rng(0), given.noise
+        self.soles = numpy.reshape(given.soles, (2, 7)) if given.soles else numpy.tile([0.0, 0, 0, 0, 0, 0, 1], (2, 1))
+        self.sums, self.count = numpy.zeros((2, 6)), 0
+        nominal = robot.stiffness / (given.gain * given.mass)
+        print(json.dumps({"joints": robot.names, "stiffness": nominal}), flush=True)
+
+    def command(self, time):
+        robot = self.robot
+        self.sums += self.forces()
+        self.count += 1
+        if time >= self.next - 1e-9:
+            self.next = max(self.next + self.period, time)
+            numbers = self.ask(time - robot.walk["time"][0])
+            targets, rates = numpy.split(numbers, 2)
+            self.late.append((time + self.latency, targets + robot.damping / robot.stiffness * rates))
+        while self.late and self.late[0][0] <= time + 1e-9:
+            robot.data.ctrl[:] = self.late.pop(0)[1]
+
+    def ask(self, time):
+        robot, data = self.robot, self.robot.data
+        joints = data.qpos[[robot.model.joint(name).qposadr[0] for name in robot.names]]
+        base = numpy.zeros(4)
+        mujoco.mju_mulQuat(base, robot.level, data.qpos[3:7])
+        joints, base, rate, forces = self.disturbed(joints, base, data.qvel[3:6].copy(), self.sums / self.count)
+        self.sums[:], self.count = 0.0, 0
+        state = [time, *joints, *xyzw(base), *rate, *forces.ravel()]
+        print(" ".join(map(repr, map(float, state))), flush=True)
+        line = sys.stdin.readline()
+        if not line:
+            sys.exit("the feedback has ended")
+        return numpy.array(line.split(), dtype=float)
+
+    def disturbed(self, joints, base, rate, forces):
+        if self.noise == 0.0:
+            return joints, base, rate, forces
+        angle, tilt, gyro, force = (self.noise * deviation for deviation in NOISE)
+        normal = self.random.standard_normal
+        turn = numpy.array([1.0, *(0.5 * tilt * normal(3))])
+        turned = numpy.zeros(4)
+        mujoco.mju_mulQuat(turned, base, turn / numpy.linalg.norm(turn))
+        return joints + angle * normal(len(joints)), turned, rate + gyro * normal(3), forces * (1 + force * normal(forces.shape))
+
+    def frame(self, side):
+        """Origin and axes of a sole in the world."""
+        body, (x, y, z, *turn) = self.robot.feet[side], self.soles[side]
+        axes = self.robot.data.xmat[body].reshape(3, 3)
+        own = numpy.zeros(9)
+        mujoco.mju_quat2Mat(own, numpy.array([turn[3], *turn[:3]]))
+        return self.robot.data.xpos[body] + axes @ [x, y, z], axes @ own.reshape(3, 3)
+
+    def forces(self):
+        """Force and moment on each sole, in its frame."""
+        robot, model, data = self.robot, self.robot.model, self.robot.data
+        frames = [self.frame(side) for side in (0, 1)]
+        sums, wrench = numpy.zeros((2, 6)), numpy.zeros(6)
+        for index in range(data.ncon):
+            contact = data.contact[index]
+            for sign, geom in ((-1.0, contact.geom1), (1.0, contact.geom2)):
+                for side in (0, 1):
+                    if geom in robot.shapes[side]:
+                        mujoco.mj_contactForce(model, data, index, wrench)
+                        # The rows of the frame are the axes of the contact; the force is that on the second shape.
+                        force = sign * (contact.frame.reshape(3, 3).T @ wrench[:3])
+                        origin, axes = frames[side]
+                        sums[side, :3] += axes.T @ force
+                        sums[side, 3:] += axes.T @ numpy.cross(contact.pos - origin, force)
+        return sums
 
 
 class Table:
@@ -186,6 +285,12 @@ class Table:
         with open(path, "w") as file:
             file.writelines([*remarks, ",".join(self.header()) + "\n"])
             file.writelines(",".join(f"{value:.9f}" for value in row) + "\n" for row in self.rows)
+
+
+def turn_to_z(up):
+    """The smallest rotation that turns a unit vector to z, as a quaternion wxyz."""
+    turn = numpy.array([1.0 + up[2], up[1], -up[0], 0.0])
+    return turn / numpy.linalg.norm(turn)
 
 
 def xyzw(quaternion):
@@ -252,6 +357,10 @@ def arguments():
     parser.add_argument("--mass", type=float, default=1.0, help="all masses times this")
     parser.add_argument("--gain", type=float, default=1.0, help="stiffness times this")
     parser.add_argument("--latency", type=float, default=0.0, help="commands are so late [s]")
+    parser.add_argument("--push", type=numbers, help="time [s], force [N], duration [s], direction [degrees from ahead to the left]")
+    parser.add_argument("--feedback", type=float, help="the period of the feedback [s]")
+    parser.add_argument("--soles", type=numbers, help="the frames of the soles in their links: x, y, z, qx, qy, qz, qw of the left, then of the right one")
+    parser.add_argument("--noise", type=float, default=0.0, help="the measurements of the feedback are disturbed by this times the usual noise")
     parser.add_argument("--frames", help="folder for pictures, ten a second")
     return parser.parse_args()
 

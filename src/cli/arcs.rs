@@ -65,13 +65,8 @@ impl ArcQuestion {
             Some(text) => Criterion::nearest(joint_values(&bare, text, angles)?),
             None => Criterion::Margin,
         };
-        let closest = options.closest;
-        if let Some(length) = closest.and_then(|weights| weights.length)
-            && !(length > 0.0 && length.is_finite())
-        {
-            return Err(Error::new(ErrorKind::BadValue, format!("--length {length}: give a positive number")));
-        }
-        Ok(Some(ArcQuestion { forms: Forms::new(&bare), bare, solver, limits, criterion, closest, angles }))
+        let (forms, closest) = (Forms::new(&bare), options.closest);
+        Ok(Some(ArcQuestion { forms, bare, solver, limits, criterion, closest, angles }))
     }
 
     /// The names of the target's numbers if they are `count`: a target without the value of a given joint.

@@ -26,6 +26,7 @@ mod ends;
 mod explain;
 mod export;
 mod files;
+mod feedback;
 mod fk;
 mod floor;
 mod follow;

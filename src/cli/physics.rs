@@ -1,14 +1,17 @@
 //! MuJoCo as an external program: a Python with the package `mujoco` simulates a walk by `scripts/physics/play.py`.
 
 use std::fs::{self, File};
+use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
-use std::thread::sleep;
+use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::thread;
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 use tempfile::TempDir;
 
+use super::feedback::Feedback;
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::document::read_text;
 use groebot_robot::motion::Trajectory;
@@ -23,8 +26,8 @@ const VARIABLE: &str = "GROEBOT_PYTHON";
 const NO_MUJOCO: i32 = 7;
 /// The interval between two checks of the script.
 const PAUSE: Duration = Duration::from_millis(10);
-/// The greatest length of the script's output in bytes.
-const OUTPUT_LIMIT: u64 = groebot_algebra::limits::DESCRIPTION_BYTES;
+/// The greatest length of the script's output in bytes: a state each 5 ms for hours.
+const OUTPUT_LIMIT: u64 = 1 << 32;
 
 /// The parameters of the world and the motors in a run.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -39,6 +42,23 @@ pub struct Case {
     pub gain: f64,
     /// The delay of commands \[s\].
     pub latency: f64,
+    /// The noise of measurements, relative to the usual one.
+    pub noise: f64,
+    /// A push of the torso.
+    pub push: Option<Push>,
+}
+
+/// A horizontal push at the torso's centre of mass.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Push {
+    /// The start \[s\].
+    pub time: f64,
+    /// The force \[N\].
+    pub force: f64,
+    /// The duration \[s\].
+    pub duration: f64,
+    /// The direction, anticlockwise from ahead \[degrees\].
+    pub direction: f64,
 }
 
 /// The output of the script for a run.
@@ -94,25 +114,25 @@ impl Stage {
         Ok(Stage { folder, python, fixed })
     }
 
-    /// Simulates the walk in a case: the motion of the robot, and the output of the script.
-    pub fn play(&self, case: &Case, watch: &Watch) -> Result<(Trajectory, ScriptOutput)> {
+    /// Simulates the walk in a case, with feedback or in open loop: the motion of the robot, and the output of the script.
+    pub fn play(
+        &self,
+        case: &Case,
+        feedback: Option<&mut Feedback>,
+        watch: &Watch,
+    ) -> Result<(Trajectory, ScriptOutput)> {
         let at = |name: &str| self.folder.path().join(name);
-        let file = |name: &str| File::create(at(name)).map_err(|error| Error::io(&at(name), &error));
         let mut command = Command::new(&self.python);
         command.args(["-B", "play.py", "robot.xml", "walk.csv", "answer.csv"]).args(&self.fixed).args(case.arguments());
-        command
-            .current_dir(self.folder.path())
-            .stdin(Stdio::null())
-            .stdout(file("output.json")?)
-            .stderr(file("errors.txt")?);
+        command.args(feedback.as_ref().map(|feedback| feedback.arguments()).unwrap_or_default());
+        let errors = File::create(at("errors.txt")).map_err(|error| Error::io(&at("errors.txt"), &error))?;
+        command.current_dir(self.folder.path()).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(errors);
         let mut running = Running(command.spawn().map_err(|error| self.no_mujoco(&error.to_string()))?);
-        let status = loop {
-            if let Some(status) = running.0.try_wait().map_err(|error| Error::io(&self.python, &error))? {
-                break status;
-            }
-            watch.check()?;
-            sleep(PAUSE);
+        let (Some(input), Some(output)) = (running.0.stdin.take(), running.0.stdout.take()) else {
+            return Err(self.no_mujoco("its input and output cannot be used"));
         };
+        let last = Exchange { lines: lines(output), input, watch }.run(feedback)?;
+        let status = running.0.wait().map_err(|error| Error::io(&self.python, &error))?;
         if !status.success() {
             let errors = fs::read_to_string(at("errors.txt")).unwrap_or_default();
             let last = errors.lines().last().unwrap_or("no message");
@@ -121,8 +141,7 @@ impl Stage {
                 _ => Error::new(ErrorKind::Unsupported, format!("MuJoCo cannot simulate this: {last}")),
             });
         }
-        let output = read_text(&at("output.json"), OUTPUT_LIMIT)?;
-        let output = serde_json::from_str(&output).map_err(|error| {
+        let output = serde_json::from_str(&last).map_err(|error| {
             Error::new(ErrorKind::Syntax, format!("the output of {} is not understood: {error}", self.python.display()))
         })?;
         Ok((Trajectory::from_csv(&read_text(&at("answer.csv"), TABLE_LIMIT)?)?, output))
@@ -138,20 +157,83 @@ impl Stage {
     }
 }
 
+/// The lines that a process writes; a thread of their own reads them.
+fn lines(output: ChildStdout) -> Receiver<String> {
+    let (sender, lines) = channel();
+    thread::spawn(move || {
+        let output = BufReader::new(output.take(OUTPUT_LIMIT));
+        for line in output.lines().map_while(std::result::Result::ok) {
+            if sender.send(line).is_err() {
+                break;
+            }
+        }
+    });
+    lines
+}
+
+/// The exchange of states and targets with the script.
+struct Exchange<'a> {
+    lines: Receiver<String>,
+    input: ChildStdin,
+    watch: &'a Watch,
+}
+
+impl Exchange<'_> {
+    /// Answers each state until the script ends. Returns its last line.
+    fn run(mut self, feedback: Option<&mut Feedback>) -> Result<String> {
+        let mut last = String::new();
+        let mut feedback = feedback.map(|feedback| (feedback, false));
+        while let Some(line) = self.next()? {
+            match &mut feedback {
+                Some((feedback, started @ false)) => {
+                    feedback.start(&line)?;
+                    *started = true;
+                }
+                Some((feedback, true)) if !line.starts_with('{') => {
+                    let answer = feedback.answer(&line)?;
+                    // When the script has ended, its status has the reason.
+                    if self.input.write_all(answer.as_bytes()).and_then(|()| self.input.flush()).is_err() {
+                        break;
+                    }
+                }
+                _ => last = line,
+            }
+        }
+        Ok(last)
+    }
+
+    fn next(&self) -> Result<Option<String>> {
+        loop {
+            self.watch.check()?;
+            match self.lines.recv_timeout(PAUSE) {
+                Ok(line) => return Ok(Some(line)),
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => return Ok(None),
+            }
+        }
+    }
+}
+
 impl Case {
-    fn arguments(&self) -> [String; 5] {
-        let Case { friction, slope, mass, gain, latency } = self;
-        [
+    fn arguments(&self) -> Vec<String> {
+        let Case { friction, slope, mass, gain, latency, noise, push } = self;
+        let push = push.map(|Push { time, force, duration, direction }| {
+            format!("--push={}", listed(&[time, force, duration, direction]))
+        });
+        let mut arguments = vec![
             format!("--friction={friction}"),
             format!("--slope={}", listed(slope)),
             format!("--mass={mass}"),
             format!("--gain={gain}"),
             format!("--latency={latency}"),
-        ]
+            format!("--noise={noise}"),
+        ];
+        arguments.extend(push);
+        arguments
     }
 }
 
-fn listed(numbers: &[f64]) -> String {
+pub fn listed(numbers: &[f64]) -> String {
     numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(",")
 }
 

@@ -8,11 +8,14 @@ use super::files::is_json;
 use super::json::FORMAT;
 use super::moving::{self, Motion, described};
 use super::output::{Force, Kind, Output};
-use super::physics::{Case, ScriptOutput, Stage, whole};
+use super::feedback::Feedback;
+use super::physics::{Case, Push, ScriptOutput, Stage, whole};
 use super::progress::{Limits, Session, seconds};
+use super::walker::{SoleArguments, named};
 use super::{Halt, Outcome, console};
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_humanoid::sim::{Comparison, Quantity, soles};
+use groebot_humanoid::walkers::Outline;
 use groebot_robot::document::shown;
 use groebot_robot::model::Robot;
 use groebot_robot::motion::Trajectory;
@@ -80,6 +83,17 @@ pub struct Arguments {
     /// The delay of commands [s]
     #[arg(long, value_name = "S", default_value_t = 0.0)]
     latency: f64,
+    /// Play the walk in open loop, without feedback
+    #[arg(long)]
+    open_loop: bool,
+    /// The noise of the feedback's measurements, relative to the usual one: 0.5 mrad of joints, 5 mrad of the
+    /// orientation, 20 mrad/s of the angular velocity, 2 % of forces
+    #[arg(long, value_name = "FACTOR", default_value_t = 0.0)]
+    noise: f64,
+    /// Push the torso at its centre of mass: start [s], force [N], duration [s], direction [degrees from ahead to the
+    /// left]
+    #[arg(long, value_name = "T,N,S,DIRECTION", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
+    push: Option<Vec<f64>>,
     /// Simulate slopes up to 3 degrees, frictions from 0.4 to 1 and masses 20 % lower and higher, then all combined;
     /// report which runs fall
     #[arg(long, conflicts_with_all = ["out", "plot", "plot_rates", "plot_torques"])]
@@ -125,7 +139,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
         drop(session);
         return report_runs(&runs, &notes, arguments.json);
     }
-    let (answer, result) = stage.play(&nominal, &session.watch)?;
+    let mut feedback = arguments.feedback(&plan, &session.watch)?;
+    let (answer, result) = stage.play(&nominal, feedback.as_mut(), &session.watch)?;
     drop(session);
     let compared = Comparison::of(&plan, &answer, result.stiffness / nominal.mass)?;
     arguments.write(&output, &plan, &answer, &legs)?;
@@ -199,7 +214,30 @@ impl Arguments {
             mass: self.mass,
             gain: self.gain,
             latency: self.latency,
+            noise: self.noise,
+            push: self.push()?,
         })
+    }
+
+    fn push(&self) -> Result<Option<Push>> {
+        let Some(numbers) = &self.push else { return Ok(None) };
+        match numbers[..] {
+            [time, force, duration, direction] if numbers.iter().all(|number| number.is_finite()) && duration > 0.0 => {
+                Ok(Some(Push { time, force, duration, direction }))
+            }
+            _ => Err(bad("--push takes four numbers: start [s], force [N], duration [s], direction [degrees], such as 3,20,0.1,90")),
+        }
+    }
+
+    /// The feedback, unless the walk is played in open loop.
+    fn feedback(&self, plan: &Trajectory, watch: &Watch) -> Result<Option<Feedback>> {
+        if self.open_loop {
+            return Ok(None);
+        }
+        let name = self.model.as_ref().map_or(plan.robot.clone(), |model| model.to_string_lossy().into_owned());
+        let soles = SoleArguments::of_links(&self.left, &self.right);
+        let walker = named(&name, Outline::default(), &soles, watch)?.walker;
+        Feedback::new(&walker, plan).map(Some)
     }
 
     /// The output; it replaces neither the walk nor the model.
@@ -264,7 +302,7 @@ fn varied(stage: &Stage, plan: &Trajectory, nominal: &Case, watch: &Watch) -> Re
     let cases = cases(nominal);
     let one = |(done, case): (usize, &Case)| {
         watch.report("runs", done, cases.len() - done);
-        let (answer, result) = stage.play(case, watch)?;
+        let (answer, result) = stage.play(case, None, watch)?;
         let compared = Comparison::of(plan, &answer, result.stiffness / case.mass)?;
         Ok(Run { case: *case, result, compared })
     };

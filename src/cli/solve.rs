@@ -88,6 +88,9 @@ pub struct Arguments {
 
 /// Solves the targets.
 pub fn run(arguments: &Arguments) -> Outcome {
+    if let Some(length) = arguments.length.filter(|length| !(*length > 0.0 && length.is_finite())) {
+        return Err(Error::new(ErrorKind::BadValue, format!("--length is {length}; give a positive number")).into());
+    }
     let program = read_program(&arguments.derivation)?;
     let angles = if arguments.degrees { Angles::Degrees } else { Angles::Radians };
     match arguments.target.as_slice() {

@@ -59,6 +59,13 @@ pub struct SoleArguments {
     outline: Option<Vec<f64>>,
 }
 
+impl SoleArguments {
+    /// The soles that are these links.
+    pub fn of_links(left: &str, right: &str) -> Self {
+        SoleArguments { left: Some(left.to_owned()), right: Some(right.to_owned()), outline: None }
+    }
+}
+
 /// A walking robot, as given to a command.
 pub struct Named {
     /// Its description.

@@ -2,6 +2,8 @@
 
 pub mod gait;
 
+pub mod stabilizer;
+
 pub mod walkers;
 
 pub mod nav;

@@ -1,0 +1,27 @@
+//! The gains of a stabiliser.
+
+/// The gains of a stabiliser. They do not depend on the size of the robot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Gains {
+    /// The rate at which an error of the DCM decays, as a fraction of the pendulum's rate `w`.
+    pub dcm: f64,
+    /// The rate at which the integral of the DCM's error acts \[1/s\].
+    pub integral: f64,
+    /// The bandwidth of the soles' admittance \[rad/s\].
+    pub ankle: f64,
+    /// The rate at which the torso turns upright \[1/s\].
+    pub torso: f64,
+    /// The bandwidth of the admittance of the feet's heights \[rad/s\].
+    pub height: f64,
+    /// The bandwidth of the observer of the centre of mass \[rad/s\].
+    pub observer: f64,
+    /// The stiffness of the joints, divided by weight times height of the centre of mass \[1/rad\].
+    pub stiffness: f64,
+}
+
+impl Default for Gains {
+    fn default() -> Self {
+        Gains { dcm: 1.0, integral: 0.5, ankle: 12.0, torso: 2.0, height: 4.0, observer: 30.0, stiffness: 20.0 }
+    }
+}

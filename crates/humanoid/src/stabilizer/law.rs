@@ -1,0 +1,281 @@
+//! The feedback law. Main type: [`Stabilizer`].
+
+use nalgebra::{Isometry3, Point2, Translation3, UnitQuaternion, Vector2, Vector3};
+
+use super::distribution::{Part, distribute, within};
+use super::estimate::{Estimate, Observer, PRESSED};
+use super::gains::Gains;
+use super::planned::{Instant, PlannedWalk};
+use super::sag::static_torques;
+use super::state::{JointTargets, State};
+use crate::gait::{Footprint, GRAVITY, Posture, Side, Walker};
+use crate::{Error, ErrorKind, Result};
+use groebot_robot::motion::Trajectory;
+use groebot_robot::spatial::{Pose, angle};
+
+/// Greatest rotation of a sole by the admittance \[rad\].
+const MOST_TILT: f64 = 0.2;
+/// Greatest rotation of the torso \[rad\].
+const MOST_LEAN: f64 = 0.25;
+/// The time in which a swinging foot returns to its plan \[s\].
+const RETURN: f64 = 0.1;
+/// The time in which corrections of standing feet fade \[s\].
+const FADE: f64 = 2.0;
+/// The least distance of the desired ZMP from the border of the support, as a fraction of half of the sole's width.
+const MARGIN: f64 = 0.15;
+/// How much the torso is lowered at first where a leg is too short, and after which it is lowered no more, as fractions of the height of the centre of mass.
+const LOWER: f64 = 0.001;
+const LOWEST: f64 = 0.1;
+/// Longest time between two steps of the law that is integrated \[s\].
+const MOST_STEP: f64 = 0.05;
+/// The number of iterations for the heading of a torso whose legs share an actuator.
+const HEADINGS: usize = 4;
+
+/// Feedback for a planned walk: joint targets from the measured state. It owns no clock: the time is that of the state.
+#[derive(Clone, Debug)]
+pub struct Stabilizer {
+    walker: Walker,
+    walk: PlannedWalk,
+    gains: Gains,
+    observer: Observer,
+    last: Posture,
+    before: Option<(f64, Vec<f64>)>,
+    integral: Vector2<f64>,
+    /// The rotation of each sole about its x and y axes \[rad\].
+    tilts: [Vector2<f64>; 2],
+    /// The rotation of the torso about x and y of its heading \[rad\].
+    lean: Vector2<f64>,
+    /// The stiffness of the joints' position controllers \[N m/rad\].
+    stiffness: Option<f64>,
+    /// How much higher the left sole is than planned, and the right one lower \[m\].
+    height: f64,
+}
+
+impl Stabilizer {
+    /// A stabiliser of `walk`, which was planned for `walker`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::MissingKey`] for a trajectory that is not a walk with its ZMP; [`ErrorKind::UnknownName`] for joints that the walker does not have.
+    pub fn new(walker: Walker, walk: &Trajectory) -> Result<Self> {
+        let walk = PlannedWalk::new(&walker, walk)?;
+        let last = walk.at(0.0).posture;
+        Ok(Stabilizer {
+            walker,
+            walk,
+            gains: Gains::default(),
+            stiffness: None,
+            observer: Observer::default(),
+            last,
+            before: None,
+            integral: Vector2::zeros(),
+            tilts: [Vector2::zeros(); 2],
+            lean: Vector2::zeros(),
+            height: 0.0,
+        })
+    }
+
+    /// Sets the gains.
+    #[must_use]
+    pub fn gains(mut self, gains: Gains) -> Self {
+        self.gains = gains;
+        self
+    }
+
+    /// Sets the stiffness of position controllers without integral action \[N m/rad\]: the targets then contain the deflection of the joints under the weight.
+    #[must_use]
+    pub fn stiffness(mut self, stiffness: f64) -> Self {
+        self.stiffness = Some(stiffness);
+        self
+    }
+
+    /// The joint targets at a state. The states of a walk are given in the order of time, for example at 200 Hz.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for a state with the wrong number of joint values, or with values that are not finite, and for a time before that of the last
+    /// state.
+    pub fn step(&mut self, state: &State) -> Result<JointTargets> {
+        let plan = self.walk.at(state.time);
+        self.check(state)?;
+        let dt = self.before.as_ref().map_or(0.0, |(time, _)| (state.time - time).min(MOST_STEP));
+        let floor = 0.5 * (plan.soles[0].translation.z + plan.soles[1].translation.z).min(0.0);
+        let rate = (GRAVITY / (plan.centre.z - floor)).sqrt();
+        let seen = self.observer.estimate(&self.walker.biped, &plan, state, (dt, rate, self.gains.observer))?;
+        let parts = self.balance(&plan, &seen, rate, dt);
+        self.turn_soles(&plan, &seen, &parts, dt);
+        self.straighten(&plan, &seen, dt);
+        self.adapt_heights(&plan, &seen, &parts, dt);
+        if std::env::var("TRACE").is_ok() {
+            let wanted = plan.centre.xy() + plan.velocity.xy() / rate;
+            eprintln!("{:.3} err {:.4} {:.4} z {:.3} {:.3} f {:.2} {:.2} want {:.2} {:.2} cop {:.3} {:.3} | {:.3} {:.3} want {:.3} {:.3} | {:.3} {:.3} tilt {:.3} {:.3} | {:.3} {:.3} lean {:.3} {:.3} h {:.4}", state.time, seen.dcm.x - wanted.x, seen.dcm.y - wanted.y, plan.zmp.x, plan.zmp.y, seen.pressed[0], seen.pressed[1], parts[0].share, parts[1].share, seen.pressure[0].x, seen.pressure[0].y, seen.pressure[1].x, seen.pressure[1].y, parts[0].pressure.x, parts[0].pressure.y, parts[1].pressure.x, parts[1].pressure.y, self.tilts[0].x, self.tilts[0].y, self.tilts[1].x, self.tilts[1].y, self.lean.x, self.lean.y, self.height);
+        }
+        let (mut posture, soles) = self.posture(&plan)?;
+        self.last = posture.clone();
+        if let Some(stiffness) = self.stiffness {
+            let torques = static_torques(&self.walker.biped, &posture, &soles, &parts)?;
+            posture.q.iter_mut().zip(torques).for_each(|(value, torque)| *value += torque / stiffness);
+        }
+        Ok(self.targets(posture, state.time))
+    }
+
+    fn check(&self, state: &State) -> Result<()> {
+        let bad = |text: String| Err(Error::new(ErrorKind::BadValue, text));
+        let count = self.walker.biped.joints.len();
+        if state.q.len() != count {
+            return bad(format!("the state has {} joint values; {} has {count}", state.q.len(), self.walker.biped.name));
+        }
+        let forces = state.soles.iter().flat_map(|sole| sole.force.iter().chain(sole.moment.iter()));
+        let numbers = state.q.iter().chain(state.orientation.coords.iter()).chain(state.angular_velocity.iter());
+        if !state.time.is_finite() || numbers.chain(forces).any(|number| !number.is_finite()) {
+            return bad("the state has a number that is not finite".to_owned());
+        }
+        match &self.before {
+            Some((time, _)) if state.time < *time => {
+                bad(format!("the state is of {} s, but the last one was of {time} s", state.time))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The desired centres of pressure: the DCM returns to that of the plan.
+    fn balance(&mut self, plan: &Instant, seen: &Estimate, rate: f64, dt: f64) -> [Part; 2] {
+        let biped = &self.walker.biped;
+        let wanted = plan.centre.xy() + plan.velocity.xy() / rate;
+        let error = seen.dcm - wanted;
+        let prints = plan.soles.map(|sole| Footprint::below(&sole));
+        let standing: Vec<(Side, Pose)> = [Side::Left, Side::Right]
+            .into_iter()
+            .filter(|side| plan.stands[*side as usize])
+            .map(|side| (side, prints[side as usize].at_height(0.0)))
+            .collect();
+        let support = biped.support(&standing, f64::INFINITY);
+        let margin = MARGIN * half_width(biped);
+        let inside = within(&support, &centroid(&support), &plan.zmp, margin);
+        let zmp = plan.zmp + (1.0 + self.gains.dcm) * error + self.integral;
+        let held = within(&support, &inside, &zmp, margin);
+        if held == zmp {
+            self.integral += dt * self.gains.integral * error;
+        }
+        distribute(biped, &prints, plan.stands, &held, margin)
+    }
+
+    /// Turns the soles until the moments on them are the desired ones.
+    fn turn_soles(&mut self, plan: &Instant, seen: &Estimate, parts: &[Part; 2], dt: f64) {
+        let biped = &self.walker.biped;
+        let weight = biped.model.mass() * GRAVITY;
+        let gain = self.gains.ankle / (self.gains.stiffness * weight * plan.centre.z);
+        for side in [0, 1] {
+            let tilt = &mut self.tilts[side];
+            if plan.stands[side] && seen.pressed[side] > PRESSED * weight {
+                let away = parts[side].pressure - seen.pressure[side];
+                let moment = Vector2::new(away.y, -away.x) * seen.pressed[side];
+                *tilt -= dt * (gain * moment + *tilt / FADE);
+            } else {
+                *tilt *= 1.0 - (dt / RETURN).min(1.0);
+            }
+            *tilt = tilt.map(|angle| angle.clamp(-MOST_TILT, MOST_TILT));
+        }
+    }
+
+    /// Turns the torso to its planned inclination.
+    fn straighten(&mut self, plan: &Instant, seen: &Estimate, dt: f64) {
+        let [should, is] = [&plan.posture.world_from_torso, &seen.torso].map(|pose| pose.rotation);
+        let error = (is * should.inverse()).scaled_axis();
+        self.lean -= dt * self.gains.torso * error.xy();
+        self.lean = self.lean.map(|angle| angle.clamp(-MOST_LEAN, MOST_LEAN));
+    }
+
+    /// Moves the feet up or down until the weight is shared as desired.
+    fn adapt_heights(&mut self, plan: &Instant, seen: &Estimate, parts: &[Part; 2], dt: f64) {
+        let weight = self.walker.biped.model.mass() * GRAVITY;
+        let share = |side: usize| seen.pressed[side] / weight;
+        let excess = (share(0) - share(1)) - (parts[0].share - parts[1].share);
+        let yielding = self.walker.biped.half_width().powi(2) / (self.gains.stiffness * plan.centre.z);
+        self.height += dt * (self.gains.height * yielding * excess - self.height / FADE);
+    }
+
+    /// The corrected posture, and the soles in it.
+    fn posture(&self, plan: &Instant) -> Result<(Posture, [Pose; 2])> {
+        let heights = [self.height, -self.height];
+        let soles = [0, 1].map(|side| {
+            let tilt = UnitQuaternion::from_scaled_axis(Vector3::new(self.tilts[side].x, self.tilts[side].y, 0.0));
+            let lift = Translation3::new(0.0, 0.0, 0.5 * heights[side]);
+            lift * plan.soles[side] * Isometry3::from_parts(Translation3::identity(), tilt)
+        });
+        let lean = UnitQuaternion::from_scaled_axis(Vector3::new(self.lean.x, self.lean.y, 0.0));
+        let planned = plan.posture.world_from_torso;
+        let torso = Pose::from_parts(planned.translation, lean * planned.rotation);
+        let last = Posture { world_from_torso: torso, q: self.held(plan) };
+        // A stretched leg cannot reach a corrected sole: the torso is lowered.
+        let mut lower = 0.0;
+        loop {
+            let torso = Translation3::new(0.0, 0.0, -lower) * torso;
+            match self.stand(&soles, &torso, &last) {
+                Ok(posture) => return Ok((posture, soles)),
+                Err(error) if lower > LOWEST * plan.centre.z => return Err(error),
+                Err(_) => lower = 2.0 * lower + LOWER * plan.centre.z,
+            }
+        }
+    }
+
+    /// The last joint values of the legs, and the planned ones of all other joints.
+    fn held(&self, plan: &Instant) -> Vec<f64> {
+        let mut q = plan.posture.q.clone();
+        for joint in self.walker.biped.feet.iter().flat_map(|foot| &foot.joints) {
+            q[*joint] = self.last.q[*joint];
+        }
+        q
+    }
+
+    /// The posture with the soles and the torso at these poses. Legs that share an actuator turn the torso until they agree.
+    fn stand(&self, soles: &[Pose; 2], torso: &Pose, last: &Posture) -> Result<Posture> {
+        let legs = &self.walker.legs;
+        let turned = |heading: f64| {
+            let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), heading);
+            legs.stand(soles, &Pose::from_parts(torso.translation, turn * torso.rotation), last)
+        };
+        let mut posture = turned(0.0)?;
+        if !legs.share_an_actuator() {
+            return Ok(posture);
+        }
+        let (mut from, mut heading) = ((0.0, legs.disagreement(&posture)), 1e-3);
+        for _ in 0..HEADINGS {
+            posture = turned(heading)?;
+            let off = legs.disagreement(&posture);
+            let slope = (off - from.1) / (heading - from.0);
+            if slope == 0.0 || off.abs() < 1e-9 {
+                break;
+            }
+            from = (heading, off);
+            heading = angle::wrap(heading - off / slope);
+        }
+        legs.agree(&mut posture);
+        Ok(posture)
+    }
+
+    fn targets(&mut self, mut posture: Posture, time: f64) -> JointTargets {
+        for (value, joint) in posture.q.iter_mut().zip(&self.walker.biped.joints) {
+            *value = value.clamp(joint.limits.0, joint.limits.1);
+        }
+        let velocities = match &self.before {
+            Some((last, q)) if time > *last => {
+                posture.q.iter().zip(q).map(|(value, before)| (value - before) / (time - last)).collect()
+            }
+            _ => vec![0.0; posture.q.len()],
+        };
+        self.before = Some((time, posture.q.clone()));
+        JointTargets { positions: posture.q, velocities }
+    }
+}
+
+/// Half of the width of the left sole \[m\].
+fn half_width(biped: &crate::gait::Biped) -> f64 {
+    let [low, high] = super::distribution::extent(biped, 0);
+    0.5 * (high.y - low.y)
+}
+
+/// The mean of the corners.
+fn centroid(polygon: &crate::gait::Polygon) -> Point2<f64> {
+    let corners = polygon.corners();
+    let sum: Vector2<f64> = corners.iter().map(|corner| corner.coords).sum();
+    Point2::from(sum / corners.len().max(1) as f64)
+}

@@ -1,0 +1,112 @@
+//! The stabiliser as the script of the simulation calls it: lines of numbers become states, targets become lines.
+
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+
+use serde::Deserialize;
+
+use super::physics::listed;
+use crate::{Error, ErrorKind, Result};
+use groebot_humanoid::gait::Walker;
+use groebot_humanoid::stabilizer::{Gains, SoleForce, Stabilizer, State};
+use groebot_robot::motion::Trajectory;
+
+/// The time between two states \[s\].
+const PERIOD: f64 = 0.005;
+
+/// The motors of the simulation.
+#[derive(Deserialize)]
+struct Motors {
+    joints: Vec<String>,
+    stiffness: f64,
+}
+
+/// A stabiliser and the joints of the simulation.
+pub struct Feedback {
+    stabilizer: Stabilizer,
+    walker: Walker,
+    /// For each joint of the simulation its place among those of the walker.
+    joints: Vec<Option<usize>>,
+}
+
+impl Feedback {
+    /// The feedback for a walk of `walker`.
+    ///
+    /// # Errors
+    /// As [`Stabilizer::new`].
+    pub fn new(walker: &Walker, walk: &Trajectory) -> Result<Self> {
+        let mut gains = Gains::default();
+        if let Ok(text) = std::env::var("GAINS") {
+            for part in text.split(',').filter(|part| !part.is_empty()) {
+                let (name, value) = part.split_once('=').unwrap();
+                let value: f64 = value.parse().unwrap();
+                match name {
+                    "dcm" => gains.dcm = value,
+                    "integral" => gains.integral = value,
+                    "ankle" => gains.ankle = value,
+                    "torso" => gains.torso = value,
+                    "height" => gains.height = value,
+                    "observer" => gains.observer = value,
+                    "stiffness" => gains.stiffness = value,
+                    _ => panic!(),
+                }
+            }
+        }
+        let stabilizer = Stabilizer::new(walker.clone(), walk)?.gains(gains);
+        Ok(Feedback { stabilizer, walker: walker.clone(), joints: Vec::new() })
+    }
+
+    /// The arguments of the script.
+    pub fn arguments(&self) -> Vec<String> {
+        let biped = &self.walker.biped;
+        let frames = biped.feet.iter().flat_map(|foot| {
+            let (_, torso_from_link) = biped.model.link(foot.link);
+            let frame = torso_from_link.inv_mul(&foot.torso_from_sole);
+            let (at, turn) = (frame.translation.vector, frame.rotation.coords);
+            [at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w]
+        });
+        vec![format!("--feedback={PERIOD}"), format!("--soles={}", listed(&frames.collect::<Vec<_>>()))]
+    }
+
+    /// Reads the simulation's joints and the stiffness of their motors.
+    pub fn start(&mut self, line: &str) -> Result<()> {
+        let motors: Motors = serde_json::from_str(line)
+            .map_err(|error| Error::new(ErrorKind::Syntax, format!("the motors of the simulation: {error}")))?;
+        if std::env::var("SAG").is_err() {
+            self.stabilizer = self.stabilizer.clone().stiffness(motors.stiffness);
+        }
+        self.joints = motors.joints.iter().map(|name| self.walker.biped.joint(name).ok()).collect();
+        Ok(())
+    }
+
+    /// The targets for a state, as lines.
+    pub fn answer(&mut self, line: &str) -> Result<String> {
+        let bad = || Error::new(ErrorKind::Syntax, "a state of the simulation is not understood");
+        let numbers: Vec<f64> =
+            line.split_whitespace().map(str::parse).collect::<std::result::Result<_, _>>().map_err(|_| bad())?;
+        let count = self.joints.len();
+        let (Some(time), Some(own), Some(rest)) =
+            (numbers.first(), numbers.get(1..=count), numbers.get(count + 1..).filter(|rest| rest.len() == 19))
+        else {
+            return Err(bad());
+        };
+        let mut q = vec![0.0; self.walker.biped.joints.len()];
+        for (value, joint) in own.iter().zip(&self.joints) {
+            if let Some(joint) = joint {
+                q[*joint] = *value;
+            }
+        }
+        let vector = |at: usize| Vector3::new(rest[at], rest[at + 1], rest[at + 2]);
+        let state = State {
+            time: *time,
+            q,
+            orientation: UnitQuaternion::new_normalize(Quaternion::new(rest[3], rest[0], rest[1], rest[2])),
+            angular_velocity: vector(4),
+            soles: [7, 13].map(|at| SoleForce { force: vector(at), moment: vector(at + 3) }),
+        };
+        let targets = self.stabilizer.step(&state)?;
+        let of = |values: &[f64]| -> Vec<String> {
+            self.joints.iter().map(|joint| joint.map_or(0.0, |joint| values[joint]).to_string()).collect()
+        };
+        Ok([of(&targets.positions), of(&targets.velocities)].concat().join(" ") + "\n")
+    }
+}
