@@ -98,6 +98,7 @@ class Robot:
         ]
         self.wrench = numpy.zeros(6)
         self.weight = model.body_subtreemass[0] * GRAVITY
+        self.soles = numpy.reshape(given.soles, (2, 7)) if given.soles else numpy.tile([0.0, 0, 0, 0, 0, 0, 1], (2, 1))
         self.push, self.feedback = given.push, Feedback(self, given) if given.feedback else None
 
     def mount(self, servo, gain):
@@ -145,6 +146,14 @@ class Robot:
         tilted = self.data.xmat[self.torso][8] < math.cos(MOST_TILT)
         return bool(tilted or self.data.qpos[2] < LEAST_HEIGHT * self.height)
 
+    def frame(self, side):
+        """Origin and axes of a sole in the world."""
+        body, (x, y, z, *turn) = self.feet[side], self.soles[side]
+        axes = self.data.xmat[body].reshape(3, 3)
+        own = numpy.zeros(9)
+        mujoco.mju_quat2Mat(own, numpy.array([turn[3], *turn[:3]]))
+        return self.data.xpos[body] + axes @ [x, y, z], axes @ own.reshape(3, 3)
+
     def clearance(self, side):
         """The height of a foot's lowest point."""
         return min(self.lowest(geom) for geom in self.shapes[side])
@@ -182,7 +191,6 @@ class Feedback:
     def __init__(self, robot, given):
         self.robot, self.period, self.latency = robot, given.feedback, given.latency
         self.next, self.late, self.random, self.noise = 0.0, [], numpy.random.default_rng(0), given.noise
-        self.soles = numpy.reshape(given.soles, (2, 7)) if given.soles else numpy.tile([0.0, 0, 0, 0, 0, 0, 1], (2, 1))
         self.sums, self.count = numpy.zeros((2, 6)), 0
         nominal = robot.stiffness / (given.gain * given.mass)
         print(json.dumps({"joints": robot.names, "stiffness": nominal}), flush=True)
@@ -223,18 +231,10 @@ class Feedback:
         mujoco.mju_mulQuat(turned, base, turn / numpy.linalg.norm(turn))
         return joints + angle * normal(len(joints)), turned, rate + gyro * normal(3), forces * (1 + force * normal(forces.shape))
 
-    def frame(self, side):
-        """Origin and axes of a sole in the world."""
-        body, (x, y, z, *turn) = self.robot.feet[side], self.soles[side]
-        axes = self.robot.data.xmat[body].reshape(3, 3)
-        own = numpy.zeros(9)
-        mujoco.mju_quat2Mat(own, numpy.array([turn[3], *turn[:3]]))
-        return self.robot.data.xpos[body] + axes @ [x, y, z], axes @ own.reshape(3, 3)
-
     def forces(self):
         """Force and moment on each sole, in its frame."""
         robot, model, data = self.robot, self.robot.model, self.robot.data
-        frames = [self.frame(side) for side in (0, 1)]
+        frames = [robot.frame(side) for side in (0, 1)]
         sums, wrench = numpy.zeros((2, 6)), numpy.zeros(6)
         for index in range(data.ncon):
             contact = data.contact[index]
@@ -276,8 +276,11 @@ class Table:
             self.zmp = pressure[1:3] / pressure[0]
         places = [robot.model.joint(name).qposadr[0] for name in robot.names]
         row = [time, *data.qpos[places], *data.qpos[:3], *xyzw(data.qpos[3:7])]
-        for side, body in enumerate(robot.feet):
-            row += [*data.xpos[body], *xyzw(data.xquat[body]), int(pressure[3 + side] > PRESSED * robot.weight)]
+        for side in (0, 1):
+            origin, axes = robot.frame(side)
+            turn = numpy.zeros(4)
+            mujoco.mju_mat2Quat(turn, axes.ravel())
+            row += [*origin, *xyzw(turn), int(pressure[3 + side] > PRESSED * robot.weight)]
         row += [*self.zmp, 0.0, pressure[0], robot.clearance(0), robot.clearance(1), *data.actuator_force]
         self.rows.append(row)
 

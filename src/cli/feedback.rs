@@ -6,8 +6,8 @@ use serde::Deserialize;
 
 use super::physics::listed;
 use crate::{Error, ErrorKind, Result};
-use groebot_humanoid::gait::Walker;
-use groebot_humanoid::stabilizer::{Gains, SoleForce, Stabilizer, State};
+use groebot_humanoid::gait::{Biped, Walker};
+use groebot_humanoid::stabilizer::{SoleForce, Stabilizer, State};
 use groebot_robot::motion::Trajectory;
 
 /// The time between two states \[s\].
@@ -21,6 +21,7 @@ struct Motors {
 }
 
 /// A stabiliser and the joints of the simulation.
+#[derive(Clone)]
 pub struct Feedback {
     stabilizer: Stabilizer,
     walker: Walker,
@@ -34,25 +35,13 @@ impl Feedback {
     /// # Errors
     /// As [`Stabilizer::new`].
     pub fn new(walker: &Walker, walk: &Trajectory) -> Result<Self> {
-        let mut gains = Gains::default();
-        if let Ok(text) = std::env::var("GAINS") {
-            for part in text.split(',').filter(|part| !part.is_empty()) {
-                let (name, value) = part.split_once('=').unwrap();
-                let value: f64 = value.parse().unwrap();
-                match name {
-                    "dcm" => gains.dcm = value,
-                    "integral" => gains.integral = value,
-                    "ankle" => gains.ankle = value,
-                    "torso" => gains.torso = value,
-                    "height" => gains.height = value,
-                    "observer" => gains.observer = value,
-                    "stiffness" => gains.stiffness = value,
-                    _ => panic!(),
-                }
-            }
-        }
-        let stabilizer = Stabilizer::new(walker.clone(), walk)?.gains(gains);
+        let stabilizer = Stabilizer::new(walker.clone(), walk)?;
         Ok(Feedback { stabilizer, walker: walker.clone(), joints: Vec::new() })
+    }
+
+    /// The biped that walks.
+    pub fn biped(&self) -> &Biped {
+        &self.walker.biped
     }
 
     /// The arguments of the script.
@@ -71,9 +60,7 @@ impl Feedback {
     pub fn start(&mut self, line: &str) -> Result<()> {
         let motors: Motors = serde_json::from_str(line)
             .map_err(|error| Error::new(ErrorKind::Syntax, format!("the motors of the simulation: {error}")))?;
-        if std::env::var("SAG").is_err() {
-            self.stabilizer = self.stabilizer.clone().stiffness(motors.stiffness);
-        }
+        self.stabilizer = self.stabilizer.clone().stiffness(motors.stiffness);
         self.joints = motors.joints.iter().map(|name| self.walker.biped.joint(name).ok()).collect();
         Ok(())
     }

@@ -1,20 +1,20 @@
-//! `groebot simulate`: simulates a walk in open loop with MuJoCo, and compares it with the plan.
+//! `groebot simulate`: simulates a walk with MuJoCo, with feedback or in open loop, and compares it with the plan.
 
 use std::path::PathBuf;
 
 use serde_json::json;
 
+use super::feedback::Feedback;
 use super::files::is_json;
 use super::json::FORMAT;
 use super::moving::{self, Motion, described};
 use super::output::{Force, Kind, Output};
-use super::feedback::Feedback;
 use super::physics::{Case, Push, ScriptOutput, Stage, whole};
 use super::progress::{Limits, Session, seconds};
 use super::walker::{SoleArguments, named};
 use super::{Halt, Outcome, console};
 use crate::{Error, ErrorKind, Result, Watch};
-use groebot_humanoid::sim::{Comparison, Quantity, soles};
+use groebot_humanoid::sim::{Comparison, Quantity, Usage, soles};
 use groebot_humanoid::walkers::Outline;
 use groebot_robot::document::shown;
 use groebot_robot::model::Robot;
@@ -23,7 +23,8 @@ use groebot_robot::motion::Trajectory;
 const EXAMPLES: &str = "Examples:
   groebot walk rh0 --plan \"out right, stride left, stride right, in left\" --torques -o walk.csv
   groebot simulate walk.csv -o answer.csv --plot joints.svg
-  groebot simulate walk.csv --friction 0.4 --slope 0,3 --mass 1.2
+  groebot simulate walk.csv --friction 0.4 --slope 0,3 --mass 1.2 --push 4,60,0.1,90
+  groebot simulate walk.csv --open-loop
   groebot simulate walk.csv --vary
   groebot simulate walk.csv --model talos.urdf --left left_sole_link --right right_sole_link
 
@@ -33,8 +34,11 @@ MuJoCo is an external program. GROEBOT_PYTHON is a Python that has it, by defaul
 Motors are position servos of one kind: torque = stiffness (command - q) - damping (q' - planned
 q'), within the efforts of the description, with an inertia at the joint. --servo gives stiffness in
 m g l, damping in m g^0.5 l^1.5 and inertia in m l^2, where m is the robot's mass and l is 0.63 of
-the height of its torso. Only the servos' own angles are fed back. A body that is described as a
-point has moments of inertia 0.2 m l^2. If the walk has torques (`walk --torques`), the predicted
+the height of its torso. A body that is described as a point has moments of inertia 0.2 m l^2.
+
+A stabiliser reads joint values, orientation and angular velocity of the base and the forces on both
+soles at 200 Hz, and corrects the commands (docs/walking.md). It knows the motors' stiffness and the
+described masses. With --open-loop, only the servos' own angles are fed back. If the walk has torques (`walk --torques`), the predicted
 sag is reported next to the deviation.
 
 The output is a trajectory with the times of the walk until the robot falls: joints, base, soles and
@@ -42,8 +46,8 @@ their contacts, ZMP by the contact forces over 20 ms, torques.
 
 The exit status is 5 if the robot falls; with --vary, if it falls in any run.";
 
-/// Simulates a walk in open loop with MuJoCo, and reports the deviations of joints, zero moment point and path from the
-/// plan
+/// Simulates a walk with MuJoCo, with feedback or in open loop, and reports the deviations of joints, zero moment point
+/// and path from the plan
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
@@ -80,7 +84,7 @@ pub struct Arguments {
     /// The factor on the stiffness of motors
     #[arg(long, value_name = "FACTOR", default_value_t = 1.0)]
     gain: f64,
-    /// The delay of commands [s]
+    /// The delay of commands and of feedback [s]
     #[arg(long, value_name = "S", default_value_t = 0.0)]
     latency: f64,
     /// Play the walk in open loop, without feedback
@@ -135,7 +139,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let stage = Stage::new(&model, &plan, feet, arguments.servo.as_deref())?;
     let session = Session::start(Limits { time: Some(arguments.time), ..Limits::default() })?;
     if arguments.vary {
-        let runs = varied(&stage, &plan, &nominal, &session.watch)?;
+        let feedback = arguments.feedback(&plan, &session.watch)?;
+        let runs = varied((&stage, &plan), &nominal, feedback.as_ref(), &session.watch)?;
         drop(session);
         return report_runs(&runs, &notes, arguments.json);
     }
@@ -143,12 +148,16 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let (answer, result) = stage.play(&nominal, feedback.as_mut(), &session.watch)?;
     drop(session);
     let compared = Comparison::of(&plan, &answer, result.stiffness / nominal.mass)?;
+    let usage = feedback.as_ref().map(|feedback| Usage::of(feedback.biped(), &answer)).transpose()?;
     arguments.write(&output, &plan, &answer, &legs)?;
     if arguments.json {
-        let value = json!({ "format": FORMAT, "robot": plan.robot, "case": nominal, "run": result, "comparison": compared, "notes": notes });
+        let value = json!({ "format": FORMAT, "robot": plan.robot, "feedback": feedback.is_some(), "case": nominal, "run": result, "usage": usage,
+            "comparison": compared, "notes": notes });
         console::print(&super::json::text(&value))?;
     } else {
-        console::print(&format!("{}: {}\n{}{compared}", plan.robot, verdict(&result), motors(&result)))?;
+        let usage = usage.map(|usage| usage.to_string()).unwrap_or_default();
+        let law = if feedback.is_some() { "with feedback" } else { "in open loop" };
+        console::print(&format!("{}: {law}, {}\n{}{usage}{compared}", plan.robot, verdict(&result), motors(&result)))?;
     }
     if result.fell.is_some() { Err(Halt::Fell) } else { Ok(()) }
 }
@@ -205,8 +214,10 @@ impl Arguments {
                 return Err(bad(&format!("{name} is {value}; give a positive number")));
             }
         }
-        if !(self.latency.is_finite() && self.latency >= 0.0) {
-            return Err(bad("--latency is a time, 0 or more"));
+        for (name, value) in [("--latency", self.latency), ("--noise", self.noise)] {
+            if !(value.is_finite() && value >= 0.0) {
+                return Err(bad(&format!("{name} is {value}; give 0 or more")));
+            }
         }
         Ok(Case {
             friction: self.friction,
@@ -225,7 +236,9 @@ impl Arguments {
             [time, force, duration, direction] if numbers.iter().all(|number| number.is_finite()) && duration > 0.0 => {
                 Ok(Some(Push { time, force, duration, direction }))
             }
-            _ => Err(bad("--push takes four numbers: start [s], force [N], duration [s], direction [degrees], such as 3,20,0.1,90")),
+            _ => Err(bad(
+                "--push takes four numbers: start [s], force [N], duration [s], direction [degrees], such as 3,20,0.1,90",
+            )),
         }
     }
 
@@ -298,11 +311,16 @@ fn cases(nominal: &Case) -> Vec<Case> {
     cases
 }
 
-fn varied(stage: &Stage, plan: &Trajectory, nominal: &Case, watch: &Watch) -> Result<Vec<Run>> {
+fn varied(
+    (stage, plan): (&Stage, &Trajectory),
+    nominal: &Case,
+    feedback: Option<&Feedback>,
+    watch: &Watch,
+) -> Result<Vec<Run>> {
     let cases = cases(nominal);
     let one = |(done, case): (usize, &Case)| {
         watch.report("runs", done, cases.len() - done);
-        let (answer, result) = stage.play(case, None, watch)?;
+        let (answer, result) = stage.play(case, feedback.cloned().as_mut(), watch)?;
         let compared = Comparison::of(plan, &answer, result.stiffness / case.mass)?;
         Ok(Run { case: *case, result, compared })
     };

@@ -49,7 +49,7 @@ fn what_is_no_walk_is_refused() {
     let (folder, walk) = walked(&["nao", "--steps", "2"]);
     let arm = folder.path().join("arm.csv");
     fs::write(&arm, "# groebot trajectory 1\n# robot: ur5\ntime [s],q:a [rad]\n0,0\n1,1\n").unwrap();
-    let cases: [(&[&str], &str); 10] = [
+    let cases: [(&[&str], &str); 13] = [
         (&["walk.txt"], "the file name is not that of a walk"),
         (&["/nowhere/walk.csv"], "No such file"),
         (&[text(&arm)], "the contacts `left` and `right`"),
@@ -60,6 +60,9 @@ fn what_is_no_walk_is_refused() {
         (&[&walk, "--slope", "50,0"], "less than 45 degrees"),
         (&[&walk, "--servo", "1,2"], "three positive numbers"),
         (&[&walk, "--mass", "0"], "--mass is 0; give a positive number"),
+        (&[&walk, "--noise=-1"], "--noise is -1; give 0 or more"),
+        (&[&walk, "--push", "1,2"], "--push takes four numbers"),
+        (&[&walk, "--push", "1,2,0,90"], "--push takes four numbers"),
     ];
     for (arguments, reason) in cases {
         let error = refused(&[&["simulate"], arguments].concat());
@@ -108,7 +111,7 @@ fn rh0_sags_as_its_motor_stiffness_predicts() {
     let (folder, walk) = walked(&["rh0", "--gait", "rh0-real", "--crouched", "--plan", "out right, in left"]);
     let at = |name: &str| folder.path().join(name);
     let (out, plot) = (at("answer.csv"), at("joints.svg"));
-    let Some(reported) = reported(&[&walk, "-o", text(&out), "--plot", text(&plot)], 0) else { return };
+    let Some(reported) = reported(&[&walk, "--open-loop", "-o", text(&out), "--plot", text(&plot)], 0) else { return };
     let compared = &reported["comparison"];
     assert_eq!((&reported["run"]["fell"], &compared["landings"]), (&Value::Null, &serde_json::json!([2, 2])));
     assert_eq!(reported["run"]["points"], serde_json::json!(["Trunk"]), "its moments are assumed");
@@ -123,8 +126,28 @@ fn rh0_sags_as_its_motor_stiffness_predicts() {
     let picture = fs::read_to_string(&plot).unwrap();
     assert_eq!(picture.matches("class=\"title\"").count(), 12);
     // The circle of 30 mm at a height of 0.67 m permits at most 3.4 degrees.
-    let Some(fallen) = self::reported(&[&walk, "--slope", "5,0"], 5) else { return };
+    let Some(fallen) = self::reported(&[&walk, "--open-loop", "--slope", "5,0"], 5) else { return };
     assert!(number(&fallen["run"]["fell"]) < 46.0);
+}
+
+/// Walks that fall in open loop stand with feedback.
+#[test]
+fn feedback_keeps_walks_upright() {
+    let walks: [(&[&str], &[&str]); 2] = [
+        (&["rh0", "--plan", "out right, stride left, in right"], &[]),
+        (&["nao", "--steps", "4"], &["--push", "2.5,12,0.1,90"]),
+    ];
+    for (walk, options) in walks {
+        let (_folder, file) = walked(walk);
+        let run = |code: i32, more: &[&str]| reported(&[&[&file[..]], options, more].concat(), code);
+        let (Some(open), Some(stands)) = (run(5, &["--open-loop"]), run(0, &[])) else { return };
+        assert!(open["run"]["fell"].is_f64() && !open["feedback"].as_bool().unwrap());
+        assert!(stands["run"]["fell"].is_null() && stands["feedback"].as_bool().unwrap());
+        let compared = &stands["comparison"];
+        let [planned, walked] = ["planned", "walked"].map(|route| number(&compared[route]["ahead"]));
+        assert!((walked - planned).abs() < 0.05, "{planned} {walked}");
+        assert!(number(&stands["usage"]["margin"][0]) > -0.005, "contact forces are within the soles: {stands}");
+    }
 }
 
 /// RH0 Fig. 6-5: the speeds of the descent of 271 intervals, from the 268th on, within 0.001 rpm.

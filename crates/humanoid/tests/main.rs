@@ -5,6 +5,7 @@ mod dynamics_parts;
 mod gait;
 mod nav;
 mod sim;
+mod stabilizer;
 mod task;
 mod view;
 mod walkers;

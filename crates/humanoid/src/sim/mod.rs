@@ -20,6 +20,7 @@ mod prism;
 mod record;
 mod rooms;
 mod run;
+mod usage;
 
 pub use answer::{Comparison, Displacement, JointComparison, SIDES, soles};
 pub use answer_picture::Quantity;
@@ -35,3 +36,4 @@ pub use prism::Thing;
 pub use record::{RecordedStage, TaskRecord};
 pub use rooms::{ROOMS, room};
 pub use run::{Next, Run, Start};
+pub use usage::{Greatest, Usage};

@@ -16,8 +16,6 @@ pub(super) const PRESSED: f64 = 0.05;
 pub(super) struct Estimate {
     /// The pose of the torso.
     pub torso: Pose,
-    /// The poses of the soles.
-    pub soles: [Pose; 2],
     /// The centre of mass \[m\].
     pub centre: Point3<f64>,
     /// The DCM \[m\].
@@ -60,9 +58,8 @@ impl Observer {
             angle::wrap(Footprint::below(&plan.soles[side]).yaw - Footprint::below(&own[side]).yaw) * shares[side]
         });
         let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), turns[0] + turns[1]);
-        let places = [0, 1].map(|side| {
-            (plan.soles[side].translation.vector - turn * own[side].translation.vector) * shares[side]
-        });
+        let places = [0, 1]
+            .map(|side| (plan.soles[side].translation.vector - turn * own[side].translation.vector) * shares[side]);
         let moved = Isometry3::from_parts((places[0] + places[1]).into(), turn);
         let centre = moved * placed.centre_of_mass();
         let pressure = [0, 1].map(|side| {
@@ -82,24 +79,13 @@ impl Observer {
         place += dt * (velocity + 1.4 * bandwidth * error);
         velocity += dt * (fall + bandwidth * bandwidth * error);
         self.motion = Some((place, velocity));
-        Ok(Estimate {
-            torso: moved * upright,
-            soles,
-            centre,
-            dcm: Point2::from(place + velocity / rate),
-            pressed,
-            pressure,
-        })
+        Ok(Estimate { torso: moved * upright, centre, dcm: Point2::from(place + velocity / rate), pressed, pressure })
     }
 }
 
 /// The share of each sole in the support: by the forces, or by the plan where there are none.
 fn shares(plan: &Instant, pressed: [f64; 2], weight: f64) -> [f64; 2] {
-    let pressed = if pressed[0] + pressed[1] > PRESSED * weight {
-        pressed
-    } else {
-        plan.stands.map(f64::from)
-    };
+    let pressed = if pressed[0] + pressed[1] > PRESSED * weight { pressed } else { plan.stands.map(f64::from) };
     let sum = pressed[0] + pressed[1];
     if sum > 0.0 { [pressed[0] / sum, pressed[1] / sum] } else { [0.5, 0.5] }
 }

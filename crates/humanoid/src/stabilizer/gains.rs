@@ -12,16 +12,27 @@ pub struct Gains {
     pub ankle: f64,
     /// The rate at which the torso turns upright \[1/s\].
     pub torso: f64,
+    /// The rate at which the torso moves until the centre of mass is where it is planned \[1/s\].
+    pub sway: f64,
     /// The bandwidth of the admittance of the feet's heights \[rad/s\].
     pub height: f64,
     /// The bandwidth of the observer of the centre of mass \[rad/s\].
     pub observer: f64,
-    /// The stiffness of the joints, divided by weight times height of the centre of mass \[1/rad\].
+    /// The stiffness of the joints for the admittances, divided by weight times height of the centre of mass \[1/rad\].
     pub stiffness: f64,
 }
 
 impl Default for Gains {
     fn default() -> Self {
-        Gains { dcm: 1.0, integral: 0.5, ankle: 12.0, torso: 2.0, height: 4.0, observer: 30.0, stiffness: 20.0 }
+        Gains {
+            dcm: 1.0,
+            integral: 0.5,
+            ankle: 25.0,
+            torso: 2.0,
+            sway: 0.5,
+            height: 15.0,
+            observer: 30.0,
+            stiffness: 20.0,
+        }
     }
 }

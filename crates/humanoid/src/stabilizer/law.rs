@@ -8,6 +8,7 @@ use super::gains::Gains;
 use super::planned::{Instant, PlannedWalk};
 use super::sag::static_torques;
 use super::state::{JointTargets, State};
+use super::steps::Steps;
 use crate::gait::{Footprint, GRAVITY, Posture, Side, Walker};
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::motion::Trajectory;
@@ -17,6 +18,8 @@ use groebot_robot::spatial::{Pose, angle};
 const MOST_TILT: f64 = 0.2;
 /// Greatest rotation of the torso \[rad\].
 const MOST_LEAN: f64 = 0.25;
+/// Greatest displacement of the torso, as a fraction of the height of the centre of mass.
+const MOST_SWAY: f64 = 0.15;
 /// The time in which a swinging foot returns to its plan \[s\].
 const RETURN: f64 = 0.1;
 /// The time in which corrections of standing feet fade \[s\].
@@ -28,6 +31,9 @@ const LOWER: f64 = 0.001;
 const LOWEST: f64 = 0.1;
 /// Longest time between two steps of the law that is integrated \[s\].
 const MOST_STEP: f64 = 0.05;
+/// The first change of the heading of a torso whose legs share an actuator, and the difference at which they agree \[rad\].
+const FIRST_TURN: f64 = 1e-3;
+const AGREED: f64 = 1e-9;
 /// The number of iterations for the heading of a torso whose legs share an actuator.
 const HEADINGS: usize = 4;
 
@@ -45,6 +51,9 @@ pub struct Stabilizer {
     tilts: [Vector2<f64>; 2],
     /// The rotation of the torso about x and y of its heading \[rad\].
     lean: Vector2<f64>,
+    steps: Steps,
+    /// The displacement of the torso \[m\].
+    sway: Vector2<f64>,
     /// The stiffness of the joints' position controllers \[N m/rad\].
     stiffness: Option<f64>,
     /// How much higher the left sole is than planned, and the right one lower \[m\].
@@ -67,9 +76,11 @@ impl Stabilizer {
             observer: Observer::default(),
             last,
             before: None,
+            steps: Steps::default(),
             integral: Vector2::zeros(),
             tilts: [Vector2::zeros(); 2],
             lean: Vector2::zeros(),
+            sway: Vector2::zeros(),
             height: 0.0,
         })
     }
@@ -94,20 +105,17 @@ impl Stabilizer {
     /// [`ErrorKind::BadValue`] for a state with the wrong number of joint values, or with values that are not finite, and for a time before that of the last
     /// state.
     pub fn step(&mut self, state: &State) -> Result<JointTargets> {
-        let plan = self.walk.at(state.time);
         self.check(state)?;
+        let mut plan = self.walk.at(state.time);
         let dt = self.before.as_ref().map_or(0.0, |(time, _)| (state.time - time).min(MOST_STEP));
+        self.steps.displace(&self.walk, state.time, dt, &mut plan);
         let floor = 0.5 * (plan.soles[0].translation.z + plan.soles[1].translation.z).min(0.0);
         let rate = (GRAVITY / (plan.centre.z - floor)).sqrt();
         let seen = self.observer.estimate(&self.walker.biped, &plan, state, (dt, rate, self.gains.observer))?;
-        let parts = self.balance(&plan, &seen, rate, dt);
+        let parts = self.balance(&plan, &seen, rate, (state.time, dt));
         self.turn_soles(&plan, &seen, &parts, dt);
         self.straighten(&plan, &seen, dt);
         self.adapt_heights(&plan, &seen, &parts, dt);
-        if std::env::var("TRACE").is_ok() {
-            let wanted = plan.centre.xy() + plan.velocity.xy() / rate;
-            eprintln!("{:.3} err {:.4} {:.4} z {:.3} {:.3} f {:.2} {:.2} want {:.2} {:.2} cop {:.3} {:.3} | {:.3} {:.3} want {:.3} {:.3} | {:.3} {:.3} tilt {:.3} {:.3} | {:.3} {:.3} lean {:.3} {:.3} h {:.4}", state.time, seen.dcm.x - wanted.x, seen.dcm.y - wanted.y, plan.zmp.x, plan.zmp.y, seen.pressed[0], seen.pressed[1], parts[0].share, parts[1].share, seen.pressure[0].x, seen.pressure[0].y, seen.pressure[1].x, seen.pressure[1].y, parts[0].pressure.x, parts[0].pressure.y, parts[1].pressure.x, parts[1].pressure.y, self.tilts[0].x, self.tilts[0].y, self.tilts[1].x, self.tilts[1].y, self.lean.x, self.lean.y, self.height);
-        }
         let (mut posture, soles) = self.posture(&plan)?;
         self.last = posture.clone();
         if let Some(stiffness) = self.stiffness {
@@ -121,7 +129,11 @@ impl Stabilizer {
         let bad = |text: String| Err(Error::new(ErrorKind::BadValue, text));
         let count = self.walker.biped.joints.len();
         if state.q.len() != count {
-            return bad(format!("the state has {} joint values; {} has {count}", state.q.len(), self.walker.biped.name));
+            return bad(format!(
+                "the state has {} joint values; {} has {count}",
+                state.q.len(),
+                self.walker.biped.name
+            ));
         }
         let forces = state.soles.iter().flat_map(|sole| sole.force.iter().chain(sole.moment.iter()));
         let numbers = state.q.iter().chain(state.orientation.coords.iter()).chain(state.angular_velocity.iter());
@@ -137,7 +149,7 @@ impl Stabilizer {
     }
 
     /// The desired centres of pressure: the DCM returns to that of the plan.
-    fn balance(&mut self, plan: &Instant, seen: &Estimate, rate: f64, dt: f64) -> [Part; 2] {
+    fn balance(&mut self, plan: &Instant, seen: &Estimate, rate: f64, (time, dt): (f64, f64)) -> [Part; 2] {
         let biped = &self.walker.biped;
         let wanted = plan.centre.xy() + plan.velocity.xy() / rate;
         let error = seen.dcm - wanted;
@@ -154,6 +166,11 @@ impl Stabilizer {
         let held = within(&support, &inside, &zmp, margin);
         if held == zmp {
             self.integral += dt * self.gains.integral * error;
+        } else if let [left, right] = plan.stands
+            && left != right
+            && let Some(landing) = self.walk.landing(usize::from(left), time)
+        {
+            self.steps.adjust(biped, plan, (error, held - plan.zmp), (rate, landing - time));
         }
         distribute(biped, &prints, plan.stands, &held, margin)
     }
@@ -182,6 +199,9 @@ impl Stabilizer {
         let error = (is * should.inverse()).scaled_axis();
         self.lean -= dt * self.gains.torso * error.xy();
         self.lean = self.lean.map(|angle| angle.clamp(-MOST_LEAN, MOST_LEAN));
+        let most = MOST_SWAY * plan.centre.z;
+        self.sway -= dt * self.gains.sway * (seen.centre.xy() - plan.centre.xy());
+        self.sway = self.sway.map(|sway| sway.clamp(-most, most));
     }
 
     /// Moves the feet up or down until the weight is shared as desired.
@@ -203,7 +223,8 @@ impl Stabilizer {
         });
         let lean = UnitQuaternion::from_scaled_axis(Vector3::new(self.lean.x, self.lean.y, 0.0));
         let planned = plan.posture.world_from_torso;
-        let torso = Pose::from_parts(planned.translation, lean * planned.rotation);
+        let sway = Translation3::new(self.sway.x, self.sway.y, 0.0);
+        let torso = Pose::from_parts(sway * planned.translation, lean * planned.rotation);
         let last = Posture { world_from_torso: torso, q: self.held(plan) };
         // A stretched leg cannot reach a corrected sole: the torso is lowered.
         let mut lower = 0.0;
@@ -237,12 +258,12 @@ impl Stabilizer {
         if !legs.share_an_actuator() {
             return Ok(posture);
         }
-        let (mut from, mut heading) = ((0.0, legs.disagreement(&posture)), 1e-3);
+        let (mut from, mut heading) = ((0.0, legs.disagreement(&posture)), FIRST_TURN);
         for _ in 0..HEADINGS {
             posture = turned(heading)?;
             let off = legs.disagreement(&posture);
             let slope = (off - from.1) / (heading - from.0);
-            if slope == 0.0 || off.abs() < 1e-9 {
+            if slope == 0.0 || off.abs() < AGREED {
                 break;
             }
             from = (heading, off);

@@ -16,6 +16,7 @@ mod law;
 mod planned;
 mod sag;
 mod state;
+mod steps;
 
 pub use gains::Gains;
 pub use law::Stabilizer;

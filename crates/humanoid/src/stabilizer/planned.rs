@@ -94,17 +94,17 @@ impl PlannedWalk {
         }
     }
 
-    /// The time at which a foot that swings at `time` stands again, and the walk then.
-    pub fn landing(&self, side: usize, time: f64) -> Option<(f64, &Instant)> {
+    /// The time at which a foot that swings at `time` stands again.
+    pub fn landing(&self, side: usize, time: f64) -> Option<f64> {
         let from = self.times.partition_point(|own| *own <= time);
         let row = (from..self.rows.len()).find(|row| self.rows[*row].stands[side])?;
-        Some((self.times[row], &self.rows[row]))
+        Some(self.times[row])
     }
 
-    /// The time at which both feet stand no more after `time`, if they do not stand until the end.
-    pub fn lift(&self, time: f64) -> Option<f64> {
+    /// The next time at which a foot leaves the floor, and its side.
+    pub fn lift(&self, time: f64) -> Option<(f64, usize)> {
         let from = self.times.partition_point(|own| *own <= time);
         let row = (from..self.rows.len()).find(|row| self.rows[*row].stands.contains(&false))?;
-        Some(self.times[row])
+        Some((self.times[row], usize::from(self.rows[row].stands[0])))
     }
 }
