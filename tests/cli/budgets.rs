@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use tempfile::tempdir;
 
-use super::{content, refused, root, run, text};
+use super::{content, refused, root, run, succeed, text};
 
 /// A polynomial whose expansion takes minutes and gigabytes.
 const POWER: &str = "variables: x, y\n(x + y + 1)^1000\n";
@@ -26,6 +26,20 @@ fn an_expansion_keeps_the_budgets() {
         assert!(begun.elapsed() < Duration::from_secs(60), "{:?}", begun.elapsed());
         assert_eq!(content(folder.path()).len(), 1, "nothing is written");
     }
+}
+
+/// The budget ends the derivation of legs, and the planning of a walk.
+#[test]
+fn a_walk_keeps_its_time_budget() {
+    let folder = tempdir().unwrap();
+    let out = folder.path().join("walk.csv");
+    for robot in ["nao", "teo"] {
+        let error = refused(&["walk", robot, "--steps", "1000", "--time", "0.01", "-o", text(&out)]);
+        assert!(error.contains("time budget of 0.0 s"), "{error}");
+        assert!(content(folder.path()).is_empty(), "nothing is written");
+    }
+    let reported = succeed(&["walk", "nao", "--steps", "2", "--time", "600", "-o", text(&out)]);
+    assert!(reported.contains("2 steps") && out.exists(), "{reported}");
 }
 
 /// Every command ends when it is interrupted: in a step without checks, and while it reads standard input.
