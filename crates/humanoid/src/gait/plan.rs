@@ -96,7 +96,6 @@ impl Planner<'_> {
     /// # Errors
     /// As [`plan`], but with the time and the number of the step in its trial.
     pub fn slowed(&self, request: &Request, actions: &[Action]) -> Result<Vec<f64>> {
-        refusal::check(request)?;
         if request.gait == Gait::Preview {
             // Its phases depend on one another.
             return Ok(vec![1.0; actions.len()]);
@@ -113,6 +112,7 @@ impl Planner<'_> {
     /// As [`plan`].
     pub fn walk(&self, request: &Request, actions: &[Action], mut slowed: Vec<f64>) -> Result<Walk> {
         let Planner { biped, legs, watch } = *self;
+        refusal::check(request)?;
         loop {
             let schedule = Schedule::new(request.route.clone(), actions, &request.durations, &slowed, request.tick);
             check_length(&schedule)?;
