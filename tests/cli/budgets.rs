@@ -34,7 +34,7 @@ fn a_walk_keeps_its_time_budget() {
     let folder = tempdir().unwrap();
     let out = folder.path().join("walk.csv");
     for robot in ["nao", "teo"] {
-        let error = refused(&["walk", robot, "--steps", "1000", "--time", "0.01", "-o", text(&out)]);
+        let error = refused(&["walk", robot, "--steps", "800", "--time", "0.01", "-o", text(&out)]);
         assert!(error.contains("time budget"), "{error}");
         assert!(content(folder.path()).is_empty(), "nothing is written");
     }
@@ -59,7 +59,7 @@ fn control_c_ends_every_command() {
         &["check", text(&ur5)],
         &["explain", text(&root("derivations/general_6r/0_chain.toml")), "-o", out],
         &["reach", text(&ur5), "--orientations", "100000", "-o", &format!("{out}.json")],
-        &["walk", "teo", "--steps", "200", "-o", out],
+        &["walk", "teo", "--steps", "800", "-o", out],
     ] {
         let mut child = super::groebot(arguments).spawn().unwrap();
         let begun = Instant::now();
