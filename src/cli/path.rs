@@ -53,7 +53,8 @@ pub struct Arguments {
     /// twentieth of a cell
     #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
     smooth: Option<f64>,
-    /// The radius of a round robot: the least distance of the path from obstacles and unknown cells [m]
+    /// The radius of a round robot: the least distance of each point of the path from obstacles and unknown cells [m].
+    /// The middles of cells on the path are farther away by half a cell's diagonal, as in `navigate`
     #[arg(long, value_name = "METRES", default_value_t = 0.0, allow_hyphen_values = true)]
     radius: f64,
     /// Write the corners of the path to this CSV file
@@ -83,7 +84,8 @@ enum MethodName {
 /// The distance between the points of a smoothed path, in cells: the spacing of collision checks.
 const CHORD: f64 = 0.05;
 
-/// The map for a round robot anywhere in a free cell.
+/// The map of the free cells in which a round robot may be anywhere: their middles are farther from obstacles by half a
+/// diagonal.
 fn for_radius(map: Map, radius: f64) -> Result<Map> {
     let radius = if radius > 0.0 { radius + map.half_diagonal() } else { radius };
     map.with_unknown_occupied().grown(radius)

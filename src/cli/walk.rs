@@ -6,7 +6,7 @@ use nalgebra::Point2;
 
 use super::files::is_json;
 use super::output::{Force, Kind, Output};
-use super::progress::{Limits, Session};
+use super::progress::{Budget, Session};
 use super::walker::{self, GaitName, SoleArguments};
 use super::{Outcome, console};
 use crate::{Error, ErrorKind, Result};
@@ -180,9 +180,8 @@ pub struct Arguments {
     /// trunk, and their difference
     #[arg(long, requires = "torques")]
     chains: bool,
-    /// Print neither progress nor summary
-    #[arg(long)]
-    quiet: bool,
+    #[command(flatten)]
+    budget: Budget,
     #[command(flatten)]
     force: Force,
 }
@@ -194,7 +193,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         SoleName::Published => Outline::Published,
     };
     let output = arguments.output()?;
-    let session = Session::start(Limits { quiet: arguments.quiet, ..Limits::default() })?;
+    let session = Session::start(arguments.budget.limits())?;
     let walker = walker::named(&arguments.robot, outline, &arguments.soles, &session.watch)?.walker;
     let defaults = arguments.defaults(&walker)?;
     let biped = &walker.biped;
@@ -204,7 +203,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let forces = arguments.torques.then(|| walk.forces(biped));
     let chains = forces.as_ref().filter(|_| arguments.chains).map(|forces| walk.chains(biped, forces));
     arguments.write(&output, biped, &walk, (forces.as_deref(), chains.as_deref()))?;
-    if arguments.quiet {
+    if arguments.budget.quiet {
         return Ok(());
     }
     console::print(&Summary::of(biped, &walk).to_string())?;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use nalgebra::Point2;
 
 use crate::{Error, ErrorKind, Result, Watch};
-use groebot_humanoid::gait::{Biped, GaitDefaults, LegSolver, Walker};
+use groebot_humanoid::gait::{Biped, GaitDefaults, LegSolver, Mirrored, Walker};
 use groebot_humanoid::walkers::{self, Outline};
 use groebot_ik::derive::{Description, InputFile, Options};
 use groebot_robot::document::{is_stdin, shown};
@@ -116,7 +116,12 @@ fn described(file: &Path, soles: &SoleArguments, watch: &Watch) -> Result<Named>
         let chain = robot.chain(None, Some(name)).map_err(at_file)?;
         Ok(Arc::new(Options::new().watch(watch.clone()).derive(&chain)?.solver()))
     };
-    let solvers = [leg(names[0])?, leg(names[1])?];
+    let left = leg(names[0])?;
+    let right: LegSolver = match Mirrored::right(&biped, &left) {
+        Some(right) => Arc::new(right),
+        None => leg(names[1])?,
+    };
+    let solvers = [left, right];
     let walker = Walker::new(&robot, biped, solvers).map_err(at_file)?;
     Ok(Named { robot, meshes, walker })
 }

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use tempfile::tempdir;
 
-use super::{content, refused, root, run, text};
+use super::{content, refused, root, run, succeed, text};
 
 /// A polynomial whose expansion takes minutes and gigabytes.
 const POWER: &str = "variables: x, y\n(x + y + 1)^1000\n";
@@ -28,6 +28,20 @@ fn an_expansion_keeps_the_budgets() {
     }
 }
 
+/// The budget ends the derivation of legs, and the planning of a walk.
+#[test]
+fn a_walk_keeps_its_time_budget() {
+    let folder = tempdir().unwrap();
+    let out = folder.path().join("walk.csv");
+    for robot in ["nao", "teo"] {
+        let error = refused(&["walk", robot, "--steps", "800", "--time", "0.01", "-o", text(&out)]);
+        assert!(error.contains("time budget"), "{error}");
+        assert!(content(folder.path()).is_empty(), "nothing is written");
+    }
+    let reported = succeed(&["walk", "nao", "--steps", "2", "--time", "600", "-o", text(&out)]);
+    assert!(reported.contains("2 steps") && out.exists(), "{reported}");
+}
+
 /// Every command ends when it is interrupted: in a step without checks, and while it reads standard input.
 #[test]
 #[cfg(target_os = "linux")]
@@ -45,7 +59,7 @@ fn control_c_ends_every_command() {
         &["check", text(&ur5)],
         &["explain", text(&root("derivations/general_6r/0_chain.toml")), "-o", out],
         &["reach", text(&ur5), "--orientations", "100000", "-o", &format!("{out}.json")],
-        &["walk", "teo", "--steps", "200", "-o", out],
+        &["walk", "teo", "--steps", "800", "-o", out],
     ] {
         let mut child = super::groebot(arguments).spawn().unwrap();
         let begun = Instant::now();

@@ -45,6 +45,37 @@ fn paths_are_reported_as_text_json_and_csv() {
 }
 
 #[test]
+fn every_point_of_a_path_keeps_the_radius() {
+    let folder = tempdir().unwrap();
+    let [room, out] = ["room.toml", "path.csv"].map(|name| folder.path().join(name));
+    fs::write(&room, ROOM).unwrap();
+    let (radius, cell) = (0.2, 0.05);
+    for method in ["exact", "fmm", "m3r", "octile"] {
+        let requested = ["path", text(&room), "--start", "0.5,0.5", "--goal", "2.5,0.5", "--method", method];
+        succeed(&[&requested[..], &["--radius", "0.2", "-o", text(&out), "--force"]].concat());
+        let content = fs::read_to_string(&out).unwrap();
+        let corners: Vec<[f64; 2]> = content
+            .lines()
+            .skip(1)
+            .map(|line| line.split(',').map(|number| number.parse().unwrap()).collect::<Vec<f64>>().try_into().unwrap())
+            .collect();
+        // The wall covers x 1.45..1.55 m and y up to 1.2 m.
+        let away = |[x, y]: [f64; 2]| ((1.45 - x).max(x - 1.55).max(0.0)).hypot((y - 1.2).max(0.0));
+        let mut least = f64::INFINITY;
+        for ends in corners.windows(2) {
+            for share in (0..=1000).map(|share| f64::from(share) / 1000.0) {
+                least = least.min(away([0, 1].map(|axis| ends[0][axis] + share * (ends[1][axis] - ends[0][axis]))));
+            }
+        }
+        assert!(least >= radius - 1e-9, "{method}: {least}");
+        if method == "exact" {
+            // The shortest path is not farther away than the cells' diagonals.
+            assert!(least <= radius + 2.0 * cell * std::f64::consts::SQRT_2, "{least}");
+        }
+    }
+}
+
+#[test]
 fn the_quickest_path_is_reported_where_speeds_differ() {
     let folder = tempdir().unwrap();
     let room = folder.path().join("room.toml");

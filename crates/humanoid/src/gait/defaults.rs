@@ -5,11 +5,11 @@ use std::borrow::Cow;
 use super::biped::Biped;
 use super::footprint::Route;
 use super::legs::Legs;
-use super::plan::{SLOWEST, Walk, plan};
+use super::plan::{Planner, SLOWEST, Walk, plan};
 use super::reference::Style;
 use super::request::{Gait, Request};
 use super::schedule::Durations;
-use crate::{ErrorKind, Result, Watch};
+use crate::{Error, ErrorKind, Result, Watch};
 
 /// The default parameters of a gait. Metres, seconds, radians.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,18 +63,21 @@ pub fn plan_at<'w>(
 ) -> Result<Walk> {
     let watch = Watch::or_none(watch);
     let heights = hip_height.map_or(heights.to_vec(), |height| vec![height]);
-    let is_refused = |walk: &Result<Walk>| walk.as_ref().is_err_and(|error| error.kind() == ErrorKind::BadValue);
+    let planner = Planner { biped, legs, watch };
     let mut first = None;
     for ease in EASED {
         for height in &heights {
-            let walk = plan(biped, legs, &request(*height, ease)?, watch);
-            if !is_refused(&walk) {
-                return walk;
+            let request = request(*height, ease)?;
+            let actions = request.gait.actions(request.route.steps.len());
+            let slowed = planner.slowed(&request, &actions);
+            match slowed.and_then(|slowed| planner.walk(&request, &actions, slowed)) {
+                Err(error) if error.kind() == ErrorKind::BadValue => first = first.or(Some(request)),
+                walk => return walk,
             }
-            first = first.or(Some(walk));
         }
     }
-    first.unwrap_or_else(|| Err(crate::Error::new(ErrorKind::BadValue, "give the height of the hip")))
+    let first = first.ok_or_else(|| Error::new(ErrorKind::BadValue, "give the height of the hip"))?;
+    plan(biped, legs, &first, watch)
 }
 
 impl GaitDefaults {

@@ -13,7 +13,7 @@ pub const MAX_STEPS: usize = limits::FOOTSTEPS;
 const MAX_COORDINATE: f64 = limits::FOOTPRINT_METRES;
 
 /// The side of a foot; as a number, its index in pairs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Side {
     /// The left foot.
     Left = 0,

@@ -1,7 +1,7 @@
 //! Concatenation of walks.
 
 use super::plan::Walk;
-use super::schedule::{Action, Phase};
+use super::schedule::Phase;
 use crate::{Error, ErrorKind, Result};
 
 impl Walk {
@@ -18,7 +18,7 @@ impl Walk {
             return bad("the time between two samples differs between the walks");
         }
         let (phases, steps) = (self.schedule.phases.len(), self.schedule.route.steps.len());
-        let phase = |phase: Phase| Phase { action: later(phase.action, steps), ..phase };
+        let phase = |phase: Phase| Phase { action: phase.action.with_step(|step| step + steps), ..phase };
         self.schedule.phases.extend(next.schedule.phases.into_iter().map(phase));
         for route in [&mut self.schedule.route, &mut self.request.route] {
             route.steps.extend(&next.schedule.route.steps);
@@ -31,15 +31,5 @@ impl Walk {
         self.motion.centres.extend(next.motion.centres.into_iter().skip(1));
         self.balances.extend(next.balances.into_iter().skip(1));
         Ok(())
-    }
-}
-
-/// Same as `action`, but for a step that has `steps` more before it.
-fn later(action: Action, steps: usize) -> Action {
-    match action {
-        Action::Rest | Action::Lower | Action::Rise => action,
-        Action::Shift(step) => Action::Shift(step + steps),
-        Action::Swing(step) => Action::Swing(step + steps),
-        Action::Balance(step) => Action::Balance(step + steps),
     }
 }

@@ -4,7 +4,7 @@ use nalgebra::Point2;
 
 use super::balance::{Balance, realised};
 use super::biped::Biped;
-use super::check::{Demand, Found, faults, feet_meet};
+use super::check::{Demand, faults, feet_meet};
 use super::legs::Legs;
 use super::motion::{Motion, Samples};
 use super::one_step::Instant;
@@ -13,13 +13,13 @@ use super::reference::{Reference, sine_centre, soles};
 use super::refusal;
 use super::request::{Gait, Request};
 use super::schedule::{Action, Schedule};
+use super::slower::slow_down;
+use super::trials;
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::spatial::angle;
 
 /// The time between two samples of NAO's walks \[s\]: 100 Hz.
 pub const TICK: f64 = 0.01;
-/// The factor by which a phase is slowed down per iteration.
-const SLOWER: f64 = 1.15;
 /// The greatest factor between a phase's duration and the requested one, unless another is given.
 pub(super) const SLOWEST: f64 = 12.0;
 /// The greatest number of samples of a walk.
@@ -73,40 +73,86 @@ pub(crate) fn plan_actions<'w>(
     watch: impl Into<Option<&'w Watch>>,
 ) -> Result<Walk> {
     let watch = Watch::or_none(watch);
-    refusal::check(request)?;
-    let mut slowed = vec![1.0; actions.len()];
-    loop {
-        let schedule = Schedule::new(request.route.clone(), actions, &request.durations, &slowed, request.tick);
-        if schedule.samples() > MOST_SAMPLES {
-            let text = format!(
-                "the walk would last {:.0} s, which is {} samples of {:e} s; at most {MOST_SAMPLES} are allowed; walk fewer steps (--steps, --goal), \
-                 faster (--period), or with a longer --tick",
-                schedule.samples() as f64 * request.tick,
-                schedule.samples(),
-                request.tick
-            );
-            return Err(Error::new(ErrorKind::BadValue, text));
+    let planner = Planner { biped, legs, watch };
+    let slowed = match planner.slowed(request, actions) {
+        // The whole walk is solved for its reason with the time and the step.
+        Err(error) if error.kind() == ErrorKind::BadValue => vec![1.0; actions.len()],
+        slowed => slowed?,
+    };
+    planner.walk(request, actions, slowed)
+}
+
+/// The robot that walks, and the watch of the work.
+#[derive(Clone, Copy)]
+pub(super) struct Planner<'a> {
+    pub biped: &'a Biped,
+    pub legs: &'a Legs,
+    pub watch: &'a Watch,
+}
+
+impl Planner<'_> {
+    /// The factors on the durations of the phases by trials of single steps.
+    ///
+    /// # Errors
+    /// As [`plan`], but with the time and the number of the step in its trial.
+    pub fn slowed(&self, request: &Request, actions: &[Action]) -> Result<Vec<f64>> {
+        if request.gait == Gait::Preview {
+            // Its phases depend on one another.
+            return Ok(vec![1.0; actions.len()]);
         }
-        let mut references = references(biped, request, &schedule);
-        if let Some(found) = feet_meet(biped, &schedule, &references) {
-            return Err(refusal::of(biped, &schedule, request, &found));
-        }
-        let (motion, balances) = match request.gait {
-            Gait::Sine | Gait::OneStep(_) => realised(biped, legs, &Samples::new(&references, request.tick), watch)?,
-            Gait::Preview => preview::moved(biped, legs, request, &schedule, &mut references, watch)?,
-        };
-        let demand = Demand {
-            margin: request.margin,
-            statically: request.gait == Gait::Sine,
-            keeps_path: request.gait.is_one_step(),
-            speed_share: request.speed_share,
-        };
-        let found = faults(biped, &Samples::new(&references, request.tick), &motion, &balances, &demand);
-        if found.is_empty() {
-            return Ok(Walk { request: request.clone(), schedule, references, motion, balances });
-        }
-        slow_down(biped, &schedule, request, &found, &mut slowed)?;
+        trials::slowed(request, actions, |request, actions| {
+            let walk = self.walk(request, actions, vec![1.0; actions.len()])?;
+            Ok(walk.schedule.phases.iter().map(|phase| phase.slowed).collect())
+        })
     }
+
+    /// The walk whose phases are at least as slow as `slowed`.
+    ///
+    /// # Errors
+    /// As [`plan`].
+    pub fn walk(&self, request: &Request, actions: &[Action], mut slowed: Vec<f64>) -> Result<Walk> {
+        let Planner { biped, legs, watch } = *self;
+        refusal::check(request)?;
+        loop {
+            let schedule = Schedule::new(request.route.clone(), actions, &request.durations, &slowed, request.tick);
+            check_length(&schedule)?;
+            let mut references = references(biped, request, &schedule);
+            if let Some(found) = feet_meet(biped, &schedule, &references) {
+                return Err(refusal::of(biped, &schedule, request, &found));
+            }
+            let (motion, balances) = match request.gait {
+                Gait::Sine | Gait::OneStep(_) => {
+                    realised(biped, legs, &Samples::new(&references, request.tick), watch)?
+                }
+                Gait::Preview => preview::moved(biped, legs, request, &schedule, &mut references, watch)?,
+            };
+            let demand = Demand {
+                margin: request.margin,
+                statically: request.gait == Gait::Sine,
+                keeps_path: request.gait.is_one_step(),
+                speed_share: request.speed_share,
+            };
+            let found = faults(biped, &Samples::new(&references, request.tick), &motion, &balances, &demand);
+            if found.is_empty() {
+                return Ok(Walk { request: request.clone(), schedule, references, motion, balances });
+            }
+            slow_down(biped, (&schedule, request), &balances, &found, &mut slowed)?;
+        }
+    }
+}
+
+/// Refuses a schedule with too many samples.
+fn check_length(schedule: &Schedule) -> Result<()> {
+    let (samples, tick) = (schedule.samples(), schedule.tick);
+    if samples <= MOST_SAMPLES {
+        return Ok(());
+    }
+    let text = format!(
+        "the walk would last {:.0} s, which is {samples} samples of {tick:e} s; at most {MOST_SAMPLES} are allowed; walk fewer steps (--steps, --goal), \
+         faster (--period), or with a longer --tick",
+        samples as f64 * tick,
+    );
+    Err(Error::new(ErrorKind::BadValue, text))
 }
 
 /// The references of feet and torso at each sample. For preview control the centre of mass has the law of the sine at
@@ -129,33 +175,4 @@ fn references(biped: &Biped, request: &Request, schedule: &Schedule) -> Vec<Refe
         Reference { phase, world_from_soles, stands: supporting, centre, torso_height, heading }
     };
     schedule.instants().map(reference).collect()
-}
-
-/// Slows down the phases that have faults.
-///
-/// # Errors
-/// The reason when no slower walk helps.
-fn slow_down(biped: &Biped, schedule: &Schedule, request: &Request, found: &[Found], slowed: &mut [f64]) -> Result<()> {
-    if let Some(hard) = found.iter().find(|found| !refusal::is_healed_by_time(&found.fault)) {
-        return Err(refusal::of(biped, schedule, request, hard));
-    }
-    let mut slow = vec![request.gait == Gait::Preview; slowed.len()];
-    for found in found {
-        slow[found.phase] = true;
-        // A sample's acceleration also depends on the neighbouring phase.
-        let start: usize = 1 + schedule.phases[..found.phase].iter().map(|phase| phase.samples).sum::<usize>();
-        if found.sample <= start + 1 && found.phase > 0 {
-            slow[found.phase - 1] = true;
-        }
-        if found.sample + 1 >= start + schedule.phases[found.phase].samples && found.phase + 1 < slow.len() {
-            slow[found.phase + 1] = true;
-        }
-    }
-    for (factor, slow) in slowed.iter_mut().zip(slow) {
-        *factor *= if slow { SLOWER } else { 1.0 };
-        if *factor > request.slowest {
-            return Err(refusal::of(biped, schedule, request, &found[0]));
-        }
-    }
-    Ok(())
 }

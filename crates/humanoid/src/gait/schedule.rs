@@ -6,7 +6,7 @@ use super::footprint::{Footprint, Route, Side};
 const MOST_SAMPLES: usize = groebot_algebra::limits::PHASE_SAMPLES;
 
 /// The kind of a phase.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Action {
     /// The robot rests in double support.
     Rest,
@@ -22,6 +22,26 @@ pub enum Action {
     Lower,
     /// After the last step the trunk rises again.
     Rise,
+}
+
+impl Action {
+    /// The number of its step; `None` for a phase of no step.
+    pub(super) fn step(self) -> Option<usize> {
+        match self {
+            Action::Rest | Action::Lower | Action::Rise => None,
+            Action::Shift(step) | Action::Swing(step) | Action::Balance(step) => Some(step),
+        }
+    }
+
+    /// Same as `self`, but with another number of its step.
+    pub(super) fn with_step(self, number: impl Fn(usize) -> usize) -> Self {
+        match self {
+            Action::Rest | Action::Lower | Action::Rise => self,
+            Action::Shift(step) => Action::Shift(number(step)),
+            Action::Swing(step) => Action::Swing(number(step)),
+            Action::Balance(step) => Action::Balance(number(step)),
+        }
+    }
 }
 
 /// A phase of a walk.
@@ -84,6 +104,15 @@ impl Schedule {
     /// The number of samples, the first and the last instant included.
     pub fn samples(&self) -> usize {
         1 + self.phases.iter().map(|phase| phase.samples).sum::<usize>()
+    }
+
+    /// The first sample of each phase. The first instant, which belongs to the first phase, is not counted.
+    pub(super) fn starts(&self) -> impl Iterator<Item = usize> + '_ {
+        self.phases.iter().scan(1, |next, phase| {
+            let start = *next;
+            *next += phase.samples;
+            Some(start)
+        })
     }
 
     /// Each sample's phase and the completed fraction of the phase, in (0, 1]. The first instant belongs to the first

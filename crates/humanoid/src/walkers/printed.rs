@@ -2,7 +2,6 @@
 //! the last bit. Main type: [`Printed`].
 
 use groebot_runtime::Solve;
-use nalgebra::{Rotation3, UnitQuaternion, Vector3};
 
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::kinematics::{InverseKinematics, Solution, Target, Task};
@@ -67,34 +66,6 @@ impl InverseKinematics for Printed {
         let wrong = || Error::new(ErrorKind::BadValue, "the pose of a leg's tip is not finite; give finite numbers");
         numbers.and_then(|numbers| (self.solve)(&numbers, out)).ok_or_else(wrong)
     }
-}
-
-/// A leg that is the mirror image in y = 0 of the solved one: pitches keep their sign, yaw and rolls change it.
-#[derive(Clone, Copy, Debug)]
-pub struct Mirrored {
-    /// The solver of the image.
-    pub image: Printed,
-    /// The value of each joint for the value 1 of its image.
-    pub senses: [f64; 6],
-}
-
-impl InverseKinematics for Mirrored {
-    fn solve(&self, target: &Target, given: &[f64], out: &mut Vec<Solution>) -> Result<()> {
-        let image = if let Target::Pose(pose) = target { Target::Pose(reflected(pose)) } else { *target };
-        self.image.solve(&image, given, out)?;
-        for answer in out {
-            answer.q.iter_mut().zip(self.senses).for_each(|(q, sense)| *q *= sense);
-        }
-        Ok(())
-    }
-}
-
-/// The mirror image of a pose in y = 0.
-fn reflected(pose: &Pose) -> Pose {
-    let mirror = nalgebra::Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, 1.0));
-    let turn = mirror * pose.rotation.to_rotation_matrix().matrix() * mirror;
-    let rotation = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(turn));
-    Pose::from_parts((mirror * pose.translation.vector).into(), rotation)
 }
 
 /// A leg that is solved from the foot up: its solver's base moves with the sole, its tip is fixed to the torso.

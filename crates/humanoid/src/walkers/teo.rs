@@ -4,9 +4,9 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::posture;
-use super::printed::{Mirrored, TEO_LEFT_LEG};
+use super::printed::TEO_LEFT_LEG;
 use crate::Result;
-use crate::gait::{Biped, Gait, GaitDefaults, Laws, Legs, OneStep, Walker};
+use crate::gait::{Biped, Gait, GaitDefaults, Laws, LegSolver, Legs, Mirrored, OneStep, Walker};
 use groebot_robot::model::Meshes;
 use groebot_robot::robots::teo;
 
@@ -23,8 +23,9 @@ const SENSES: [f64; 6] = [-1.0, -1.0, 1.0, 1.0, 1.0, -1.0];
 pub fn teo_walker() -> Result<Walker> {
     let biped = Biped::new(&teo(), ["l_sole", "r_sole"], &Meshes::default())?;
     let crouch = posture(&biped, |_| CROUCH)?;
-    let right = Mirrored { image: TEO_LEFT_LEG, senses: SENSES };
-    let legs = Legs::new(&biped, [Arc::new(TEO_LEFT_LEG), Arc::new(right)], crouch)?;
+    let left: LegSolver = Arc::new(TEO_LEFT_LEG);
+    let right = Arc::new(Mirrored::new(Arc::clone(&left), SENSES.to_vec()));
+    let legs = Legs::new(&biped, [left, right], crouch)?;
     Ok(Walker { biped, legs, gaits: vec![("osg", TEO_ONE_STEP)] })
 }
 

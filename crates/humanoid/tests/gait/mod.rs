@@ -5,6 +5,7 @@ mod drawing;
 mod errata;
 mod forces;
 mod goals;
+mod long;
 mod nao;
 mod one_step;
 mod polygon;

@@ -1,7 +1,11 @@
 //! The humanoids as whole robots, compared with the figures of their sources.
 
+use std::sync::Arc;
+
+use groebot_humanoid::gait::{LegSolver, Legs, Mirrored, Side, Walker};
 use groebot_humanoid::walkers::{self, Outline, nao_walker, rh0_walker};
 use groebot_robot::dynamics::Model;
+use groebot_robot::kinematics::{InverseKinematics, Solution, Target};
 use groebot_robot::model::Robot;
 use groebot_robot::robots::{self, nao_v5, rh0, teo};
 use groebot_robot::spatial::Pose;
@@ -133,4 +137,53 @@ fn the_legs_of_all_walkers_are_solved() {
         }
     }
     assert!(walkers::walker("c3po", Outline::Measured).is_none());
+}
+
+/// The right leg of NAO by the solver of the left one: the postures of its own derived solver, and by forward kinematics.
+#[test]
+fn a_leg_is_solved_by_its_mirror_image() {
+    let Walker { biped, legs, .. } = nao_walker(Outline::Measured).unwrap();
+    let (_, torso_from_link) = biped.model.link(biped.feet[0].link);
+    let link_from_sole = torso_from_link.inv_mul(&biped.feet[0].torso_from_sole);
+    let left: LegSolver = Arc::new(Leg { legs: legs.clone(), link_from_sole });
+    let mirrored = Mirrored::right(&biped, &left).expect("NAO's legs are mirror images");
+    let foot = &biped.feet[1];
+    let mut solved = 0;
+    for case in 0..200 {
+        let mut q = vec![0.0; biped.joints.len()];
+        for (place, joint) in foot.joints.iter().enumerate() {
+            let (low, high) = biped.joints[*joint].limits;
+            // A sequence of low discrepancy for each joint.
+            q[*joint] =
+                low + (high - low) * (0.37 + case as f64 * [2f64, 3.0, 5.0, 7.0, 11.0, 13.0][place].sqrt()).fract();
+        }
+        let reached = biped.model.place(&Pose::identity(), &q).unwrap().world_from_link(foot.link);
+        let mut found = Vec::new();
+        mirrored.solve(&Target::Pose(reached), &[], &mut found).unwrap();
+        let own: Vec<f64> = foot.joints.iter().map(|joint| q[*joint]).collect();
+        let away = |answer: &Solution| answer.q.iter().zip(&own).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        solved += usize::from(found.iter().any(|answer| away(answer) < 1e-6));
+        for answer in &found {
+            foot.joints.iter().zip(&answer.q).for_each(|(joint, value)| q[*joint] = *value);
+            let again = biped.model.place(&Pose::identity(), &q).unwrap().world_from_link(foot.link);
+            assert!((again.to_homogeneous() - reached.to_homogeneous()).norm() < 1e-9, "case {case}");
+        }
+    }
+    assert_eq!(solved, 200);
+}
+
+/// The solver of the left leg.
+#[derive(Debug)]
+struct Leg {
+    legs: Legs,
+    link_from_sole: Pose,
+}
+
+impl InverseKinematics for Leg {
+    fn solve(&self, target: &Target, _given: &[f64], out: &mut Vec<Solution>) -> groebot_humanoid::Result<()> {
+        let Target::Pose(pose) = target else { unreachable!("a pose") };
+        let answers = self.legs.solutions(Side::Left, &(pose * self.link_from_sole)).into_iter();
+        *out = answers.map(|q| Solution { q, ..Solution::default() }).collect();
+        Ok(())
+    }
 }
