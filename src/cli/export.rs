@@ -136,7 +136,8 @@ impl Arguments {
     fn scene(&self) -> Result<Scene> {
         let file = &self.input;
         if self.soles.is_given() {
-            let text = "--left, --right and --outline are for urdf and mjcf, where they replace the shapes of the soles";
+            let text =
+                "--left, --right and --outline are for urdf and mjcf, where they replace the shapes of the soles";
             return Err(refused(text).in_file(file));
         }
         let motion = moving::motion(file)?.map(|motion| motion.trajectory);

@@ -66,8 +66,8 @@ pub struct Biped {
     pub hips: [Point3<f64>; 2],
     /// The pairs of links that may touch each other.
     pub clearance: Clearance,
-    /// The torso in the frame of the root link of the description: the identity unless that frame has other axes than
-    /// x forward, y left, z up.
+    /// The root link of the description in the frame of the torso: the identity unless the link has other axes than x
+    /// forward, y left, z up.
     pub torso_from_root: Pose,
     /// The names of the links, by their indices in the robot.
     pub links: Vec<String>,
@@ -101,12 +101,7 @@ impl Biped {
     }
 
     /// Same as [`Biped::new`], but with the links' indices, with soles by `outlines`, and with the frame of the torso.
-    pub(super) fn on(
-        robot: &Robot,
-        links: [usize; 2],
-        outlines: [Outline; 2],
-        torso_from_root: Pose,
-    ) -> Result<Self> {
+    pub(super) fn on(robot: &Robot, links: [usize; 2], outlines: [Outline; 2], torso_from_root: Pose) -> Result<Self> {
         let biped = Biped::with_outlines(robot, Model::new(robot)?, links, outlines)?;
         Ok(Biped { torso_from_root, ..biped })
     }

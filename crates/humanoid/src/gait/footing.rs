@@ -16,7 +16,7 @@ use groebot_robot::dynamics::Model;
 use groebot_robot::kinematics::{Chain, Task};
 use groebot_robot::model::{Meshes, Robot};
 use groebot_robot::spatial::Pose;
-use groebot_robot::spatial::exact::{ExactRotation, ExactVector, Placement, Turn, numeric_rotation};
+use groebot_robot::spatial::exact::{ExactRotation, ExactVector, Placement, Turn, normalized, numeric_rotation};
 
 /// The greatest angle between an axis of the root and a direction of the robot: the cosine of 45 degrees.
 const ALONG: f64 = 0.7;
@@ -60,15 +60,19 @@ impl Footing {
         let mut links = limbs::soles(robot, &Model::new(robot)?, links)?;
         let mut notes = Vec::new();
         let robot = held(robot, links, &mut notes)?;
-        let mut turned = turned(&robot, links)?;
+        let mut turned = at_torso(&robot, links)?;
         let own = [0, 1].map(|side| Contact::of(&turned, links[side], meshes));
         let names = limbs::says(links.map(|link| robot.links()[link].name.as_str()));
         if is_exchanged(names, Contact::is_ahead(&own), &mut notes) {
             links.reverse();
             let name = |link: usize| shown(&robot.links()[link].name);
-            let text = format!("`{}` is the left sole and `{}` the right one, by their names and shapes", name(links[0]), name(links[1]));
+            let text = format!(
+                "`{}` is the left sole and `{}` the right one, by their names and shapes",
+                name(links[0]),
+                name(links[1])
+            );
             notes.push(text);
-            turned = self::turned(&robot, links)?;
+            turned = at_torso(&robot, links)?;
         }
         let own = [0, 1].map(|side| Contact::of(&turned, links[side], meshes));
         let is_own = outline.is_none() && own.iter().all(|contact| contact.outline.is_some() && contact.collides);
@@ -110,9 +114,9 @@ impl Footing {
                 return derive(&chain);
             }
             let (_, torso_from_link) = biped.model.link(foot.link);
-            let direction = torso_from_link.rotation.inverse() * held_direction(&biped, foot)?;
-            let chain = chain.with_task(Task::Ray, exact(&direction), Vec::new())?;
-            Ok(Arc::new(pointing(derive(&chain)?, direction)))
+            let direction = exact(&(torso_from_link.rotation.inverse() * held_direction(&biped, foot)?));
+            let chain = chain.with_task(Task::Ray, direction.clone(), Vec::new())?;
+            Ok(Arc::new(pointing(derive(&chain)?, normalized(&direction).into_inner())))
         };
         Walker::new(&self.robot, biped.clone(), [solver(0)?, solver(1)?])
     }
@@ -240,7 +244,9 @@ fn held(robot: &Robot, links: [usize; 2], notes: &mut Vec<String>) -> Result<Rob
                     "joint `{}` moves both feet; give the soles of two legs by --left and --right",
                     shown(&robot.joints()[*joint].name)
                 ),
-                None => format!("there are {own} joints between the root and `{name}`; a leg needs at least 3 (--left, --right)"),
+                None => format!(
+                    "there are {own} joints between the root and `{name}`; a leg needs at least 3 (--left, --right)"
+                ),
             };
             return Err(Error::new(ErrorKind::BadValue, format!("{}: {text}", robot.name())));
         }
@@ -255,7 +261,7 @@ fn held(robot: &Robot, links: [usize; 2], notes: &mut Vec<String>) -> Result<Rob
 }
 
 /// The robot with the root at its torso: z from the feet to the hips, y from the right to the left sole.
-fn turned(robot: &Robot, links: [usize; 2]) -> Result<Turned> {
+fn at_torso(robot: &Robot, links: [usize; 2]) -> Result<Turned> {
     let model = Model::new(robot)?;
     let torso_from_root = upright(robot, &model, links)?;
     if torso_from_root.angle() == 0.0 {
@@ -316,7 +322,8 @@ fn quarter_turns(rotation: &UnitQuaternion<f64>) -> Result<ExactRotation> {
 /// # Errors
 /// [`ErrorKind::Unsupported`] for a leg that cannot turn its sole about the vertical.
 fn held_direction(biped: &Biped, foot: &Foot) -> Result<Vector3<f64>> {
-    let along = |joint: &usize| biped.model.joints()[*joint].screw.axis().map_or(Vector3::x(), |axis| *axis.direction());
+    let along =
+        |joint: &usize| biped.model.joints()[*joint].screw.axis().map_or(Vector3::x(), |axis| *axis.direction());
     let turns = foot.joints.iter().any(|joint| along(joint).z.abs() > ALONG);
     if !turns {
         let text = format!(

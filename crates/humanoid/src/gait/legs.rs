@@ -92,7 +92,13 @@ impl Legs {
         let [left, right] = solvers;
         let leg = |side: Side, solver| Leg::new(biped, side, solver, &crouch);
         let legs = [leg(Side::Left, left), leg(Side::Right, right)];
-        Ok(Legs { legs, crouch, shared: biped.shared.first().copied(), coordinated: Vec::new(), lead: Vector2::zeros() })
+        Ok(Legs {
+            legs,
+            crouch,
+            shared: biped.shared.first().copied(),
+            coordinated: Vec::new(),
+            lead: Vector2::zeros(),
+        })
     }
 
     /// Adds joints of other limbs that take the value of a joint of a leg: pairs of the follower and the leader.

@@ -29,23 +29,25 @@ pub(super) fn soles(robot: &Robot, model: &Model, given: [Option<&str>; 2]) -> R
     if let [Some(left), Some(right)] = given {
         return Ok([robot.link(left)?, robot.link(right)?]);
     }
-    let known = given.map(|name| name.map(|name| robot.link(name)).transpose());
-    let [left, right] = [known[0].clone()?, known[1].clone()?];
+    let known = |name: Option<&str>| name.map(|name| robot.link(name)).transpose();
+    let (left, right) = (known(given[0])?, known(given[1])?);
     let limbs: Vec<Limb> = robot.tips().into_iter().map(|tip| robot.link(tip)).collect::<Result<Vec<_>>>()?;
     let limbs: Vec<Limb> = limbs.into_iter().map(|link| Limb::new(robot, model, link)).collect();
-    let is_at = |limb: &Limb, link: &Option<usize>| link.is_none_or(|link| model.link(link).0 == model.link(limb.link).0);
+    let is_at =
+        |limb: &Limb, link: &Option<usize>| link.is_none_or(|link| model.link(link).0 == model.link(limb.link).0);
     let mut best: Option<(f64, [usize; 2])> = None;
     for (place, one) in limbs.iter().enumerate() {
         for other in &limbs[place + 1..] {
             let Some(axis) = one.mirrored(other).filter(|axis| *axis != 2) else { continue };
-            let Some([a, b]) = ordered(robot, [one, other], axis, |pair| {
-                is_at(pair[0], &left) && is_at(pair[1], &right)
-            }) else {
+            let Some([a, b]) =
+                ordered(robot, [one, other], axis, |pair| is_at(pair[0], &left) && is_at(pair[1], &right))
+            else {
                 continue;
             };
             let height = one.end().z.min(other.end().z);
             if best.is_none_or(|(lowest, _)| height < lowest) {
-                best = Some((height, [left.unwrap_or(lowest(robot, model, a)), right.unwrap_or(lowest(robot, model, b))]));
+                best =
+                    Some((height, [left.unwrap_or(lowest(robot, model, a)), right.unwrap_or(lowest(robot, model, b))]));
             }
         }
     }
@@ -54,12 +56,7 @@ pub(super) fn soles(robot: &Robot, model: &Model, given: [Option<&str>; 2]) -> R
 
 /// The links of a pair of limbs, left and right by their names, else with the left one at greater y, or less x where
 /// the limbs are apart along x. `fits` says whether an order agrees with the given links.
-fn ordered(
-    robot: &Robot,
-    pair: [&Limb; 2],
-    axis: usize,
-    fits: impl Fn([&Limb; 2]) -> bool,
-) -> Option<[usize; 2]> {
+fn ordered(robot: &Robot, pair: [&Limb; 2], axis: usize, fits: impl Fn([&Limb; 2]) -> bool) -> Option<[usize; 2]> {
     let [one, other] = pair;
     let sign = if axis == 1 { 1.0 } else { -1.0 };
     let names = pair.map(|limb| robot.links()[limb.link].name.as_str());
@@ -91,7 +88,7 @@ impl Limb {
         }
         let size = self.places.iter().map(|place| (place - self.end()).norm()).fold(0.0, f64::max);
         let apart = (self.end() - other.end()).abs();
-        let axis = apart.imax();
+        let axis = apart.iamax();
         let middle = (self.end()[axis] + other.end()[axis]) / 2.0;
         let is_image = |(one, image): (&Point3<f64>, &Point3<f64>)| {
             let mut image = *image;

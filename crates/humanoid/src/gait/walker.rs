@@ -36,8 +36,9 @@ const HEIGHTS: [f64; 8] = [0.965, 0.955, 0.94, 0.925, 0.91, 0.89, 0.87, 0.84];
 const UPRIGHT: f64 = 0.985;
 /// The least distance of a joint that does not walk from its limits \[rad or m\].
 const ASIDE: f64 = 1e-3;
-/// The least cosine of the angle between the lateral direction and an axis that swings a leg forward: 45 degrees.
-const ACROSS: f64 = 0.7;
+/// The least cosine of the angle between the lateral direction and an axis that swings a leg forward. NAO's axis for
+/// yaw and pitch is at 45 degrees.
+const ACROSS: f64 = 0.8;
 /// The duration of a step in units of sqrt(leg length / gravity), a pendulum's unit of time.
 const PERIOD: f64 = 19.0;
 
@@ -113,9 +114,8 @@ fn crouched(biped: &Biped, foot: &Foot, solver: &LegSolver) -> Result<Vec<f64>> 
 /// axes point to the left, as indices into a configuration. Without three of these, the third, the fourth and the last
 /// joint.
 pub(super) fn sagittal(model: &Model, joints: &[usize]) -> [usize; 3] {
-    let to_the_left = |joint: &&usize| {
-        model.joints()[**joint].screw.axis().is_some_and(|axis| axis.direction().y.abs() > ACROSS)
-    };
+    let to_the_left =
+        |joint: &&usize| model.joints()[**joint].screw.axis().is_some_and(|axis| axis.direction().y.abs() > ACROSS);
     let across: Vec<usize> = joints.iter().filter(to_the_left).copied().collect();
     match across[..] {
         [hip, knee, .., ankle] => [hip, knee, ankle],

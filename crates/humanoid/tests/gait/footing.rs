@@ -105,8 +105,7 @@ fn walk(walker: &Walker, (x, y, heading): (f64, f64, Option<f64>)) -> Result<Wal
     let biped = &walker.biped;
     let request = |height, ease| {
         let gait = defaults.clone().eased(ease);
-        let measures =
-            Measures { length: gait.length, half_width: gait.half_width(biped), most_turn: gait.most_turn };
+        let measures = Measures { length: gait.length, half_width: gait.half_width(biped), most_turn: gait.most_turn };
         let route = Route::towards(&Point2::new(x, y), heading, Side::Left, &measures)?;
         Ok(gait.from_upright(biped).request(biped, route, height))
     };
@@ -200,7 +199,9 @@ fn hips_ahead_of_the_root_walk_and_turn() {
 #[test]
 fn a_goal_at_the_start_is_a_plan_of_standing() {
     let walk = walk(plain(), (0.0, 0.0, None)).unwrap();
-    assert!(walk.schedule.route.steps.is_empty() && walk.references.iter().all(|reference| reference.stands == [true; 2]));
+    assert!(
+        walk.schedule.route.steps.is_empty() && walk.references.iter().all(|reference| reference.stands == [true; 2])
+    );
     feet_are_where_the_walk_says(&PLAIN, plain(), &walk);
 }
 
