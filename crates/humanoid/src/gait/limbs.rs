@@ -31,8 +31,8 @@ pub(super) fn soles(robot: &Robot, model: &Model, given: [Option<&str>; 2]) -> R
     }
     let known = |name: Option<&str>| name.map(|name| robot.link(name)).transpose();
     let (left, right) = (known(given[0])?, known(given[1])?);
-    let limbs: Vec<Limb> = robot.tips().into_iter().map(|tip| robot.link(tip)).collect::<Result<Vec<_>>>()?;
-    let limbs: Vec<Limb> = limbs.into_iter().map(|link| Limb::new(robot, model, link)).collect();
+    let limb = |tip: &str| Ok(Limb::new(robot, model, robot.link(tip)?));
+    let limbs: Vec<Limb> = robot.tips().into_iter().map(limb).collect::<Result<_>>()?;
     let is_at =
         |limb: &Limb, link: &Option<usize>| link.is_none_or(|link| model.link(link).0 == model.link(limb.link).0);
     let mut best: Option<(f64, [usize; 2])> = None;
