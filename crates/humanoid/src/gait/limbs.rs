@@ -21,7 +21,7 @@ struct Limb {
 }
 
 /// The links of the soles, left and right: the given ones; otherwise the ends of the two mirrored limbs that are the
-/// lowest along the root's z axis. Of the links fixed to a limb's end it is the lowest.
+/// lowest along the root's z axis. Of the frames fixed to a limb's end it is the lowest.
 ///
 /// # Errors
 /// [`ErrorKind::UnknownName`] for a link that does not exist; [`ErrorKind::MissingKey`] when no two limbs are mirrored.
@@ -100,14 +100,17 @@ impl Limb {
     }
 }
 
-/// The lowest link of those that are fixed to `link`, at the zero configuration.
+/// The lowest frame, a link without shapes, of those that are fixed to `link` and below it at the zero configuration;
+/// `link` itself if there is none.
 fn lowest(robot: &Robot, model: &Model, link: usize) -> usize {
     let (body, own) = model.link(link);
     let height = |place: &usize| model.link(*place).1.translation.z;
-    let fixed = (0..robot.links().len()).filter(|place| model.link(*place).0 == body);
-    let found = fixed.min_by(|a, b| height(a).total_cmp(&height(b))).unwrap_or(link);
-    // Of links at one height the foot itself is the best known.
-    if height(&found) < own.translation.z { found } else { link }
+    let is_frame = |place: &usize| {
+        let other = &robot.links()[*place];
+        other.collisions.is_empty() && other.visuals.is_empty() && model.link(*place).0 == body
+    };
+    let below = (0..robot.links().len()).filter(is_frame).filter(|place| height(place) < own.translation.z);
+    below.min_by(|a, b| height(a).total_cmp(&height(b))).unwrap_or(link)
 }
 
 /// Whether the first of two names is that of the left side and the second that of the right side, by the letters in
