@@ -10,6 +10,7 @@ import csv
 import json
 import math
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -35,7 +36,7 @@ LONGEST_REASON = 300
 
 @dataclass
 class Row:
-    """One robot. `plan` is `walks`, `refused`, `late` or `missing`; `physics` is `stands`, `falls`, `refused`, `late` or empty."""
+    """One robot. `plan` is `walks`, `astray`, `refused`, `late` or `missing`; `physics` is `stands`, `falls`, `refused`, `late` or empty."""
 
     id: str
     name: str
@@ -78,7 +79,8 @@ def called(command: list, limit: float) -> tuple[int | None, str, str, float]:
 
 def lines(text: str, kind: str) -> str:
     found = [line.split(": ", 1)[1] for line in text.splitlines() if line.startswith(f"{kind}: ")]
-    return "; ".join(found)[:LONGEST_REASON]
+    # The folders are those of this machine.
+    return re.sub(r"(?<![\w.])/(?:[^/\s(]+/)+", "", "; ".join(found))[:LONGEST_REASON]
 
 
 def measured(robot: dict, args: argparse.Namespace, folder: Path) -> Row:
