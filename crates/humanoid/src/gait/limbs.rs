@@ -39,15 +39,14 @@ pub(super) fn soles(robot: &Robot, model: &Model, given: [Option<&str>; 2]) -> R
     for (place, one) in limbs.iter().enumerate() {
         for other in &limbs[place + 1..] {
             let Some(axis) = one.mirrored(other).filter(|axis| *axis != 2) else { continue };
-            let Some([a, b]) =
-                ordered(robot, [one, other], axis, |pair| is_at(pair[0], &left) && is_at(pair[1], &right))
+            let Some(pair) = ordered(robot, [one, other], axis, |pair| is_at(pair[0], &left) && is_at(pair[1], &right))
             else {
                 continue;
             };
             let height = one.end().z.min(other.end().z);
             if best.is_none_or(|(lowest, _)| height < lowest) {
-                best =
-                    Some((height, [left.unwrap_or(lowest(robot, model, a)), right.unwrap_or(lowest(robot, model, b))]));
+                let [a, b] = lowest(robot, model, pair);
+                best = Some((height, [left.unwrap_or(a), right.unwrap_or(b)]));
             }
         }
     }
@@ -100,17 +99,24 @@ impl Limb {
     }
 }
 
-/// The lowest frame, a link without shapes, of those that are fixed to `link` and below it at the zero configuration;
-/// `link` itself if there is none.
-fn lowest(robot: &Robot, model: &Model, link: usize) -> usize {
-    let (body, own) = model.link(link);
+/// The lowest frames, links without shapes, of those that are fixed to the two links and below them at the zero
+/// configuration. Their names say the same sides as those of the links. Without such frames they are the links.
+fn lowest(robot: &Robot, model: &Model, links: [usize; 2]) -> [usize; 2] {
     let height = |place: &usize| model.link(*place).1.translation.z;
-    let is_frame = |place: &usize| {
-        let other = &robot.links()[*place];
-        other.collisions.is_empty() && other.visuals.is_empty() && model.link(*place).0 == body
-    };
-    let below = (0..robot.links().len()).filter(is_frame).filter(|place| height(place) < own.translation.z);
-    below.min_by(|a, b| height(a).total_cmp(&height(b))).unwrap_or(link)
+    let name = |place: usize| robot.links()[place].name.as_str();
+    let [lefts, rights] = links.map(|link| {
+        let is_frame = |place: &usize| {
+            let other = &robot.links()[*place];
+            let is_fixed = model.link(*place).0 == model.link(link).0 && height(place) < height(&link);
+            is_fixed && other.collisions.is_empty() && other.visuals.is_empty()
+        };
+        let mut frames: Vec<usize> = (0..robot.links().len()).filter(is_frame).collect();
+        frames.sort_by(|a, b| height(a).total_cmp(&height(b)));
+        frames
+    });
+    let sides = says(links.map(name));
+    let mut pairs = lefts.iter().flat_map(|left| rights.iter().map(move |right| [*left, *right]));
+    pairs.find(|pair| says(pair.map(name)) == sides).unwrap_or(links)
 }
 
 /// Whether the first of two names is that of the left side and the second that of the right side, by the letters in
