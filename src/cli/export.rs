@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::output::{Force, Kind};
+use super::walker::{self, SoleArguments};
 use super::{Outcome, console, moving};
 use crate::{Error, ErrorKind, Result};
 use groebot_humanoid::sim::export::Scene;
@@ -17,13 +18,14 @@ const EXAMPLES: &str = "Examples:
   groebot export arm.wrl --to glb -o arm.glb
   groebot export nao_v5 --to mjcf -o nao.xml
   groebot export robot.toml --to urdf -o robot.urdf
+  groebot export jvrc1.urdf --to mjcf --outline=-0.1,0.13,-0.06,0.06,-0.1 -o jvrc1.xml
 
 Robots of groebot: nao_v5, rh0, teo. A walk, a path of an arm or a recording becomes an animated
 scene with one node per link, y up, in metres. VRML is read with the nodes of RH0 Fig. 5-4 only.
 
 In MJCF the root moves freely above a floor and every joint has a position servo. Only the floor has
 contacts. Meshes are referred to by their files; text meshes, which MuJoCo does not read, are
-written anew.";
+written anew. With --outline the soles are boxes, as in `walk`.";
 
 /// A format of robots or scenes.
 #[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -53,6 +55,8 @@ pub struct Arguments {
     /// The moving robot, if the motion does not name a robot of groebot
     #[arg(long, value_name = "ROBOT-or-FILE")]
     robot: Option<PathBuf>,
+    #[command(flatten)]
+    soles: SoleArguments,
     /// Include the triangles of STL meshes in the scene
     #[arg(long)]
     meshes: bool,
@@ -115,6 +119,7 @@ impl Arguments {
         }
         let (robot, meshes) = moving::described(&self.input)?;
         robot.check().map_err(|error| error.in_file(&self.input))?;
+        let robot = if self.soles.is_given() { walker::with_soles(robot, &meshes, &self.soles)?.0 } else { robot };
         report_omissions(&robot);
         if self.to == Format::Mjcf {
             let mut notes = Vec::new();
@@ -130,6 +135,11 @@ impl Arguments {
 
     fn scene(&self) -> Result<Scene> {
         let file = &self.input;
+        if self.soles.is_given() {
+            let text =
+                "--left, --right and --outline are for urdf and mjcf, where they replace the shapes of the soles";
+            return Err(refused(text).in_file(file));
+        }
         let motion = moving::motion(file)?.map(|motion| motion.trajectory);
         if motion.is_none() && self.robot.is_some() {
             let text = "--robot names the robot that moves, but this is not a motion; give one in CSV or JSON, or leave it out";

@@ -23,7 +23,7 @@ const EXAMPLES: &str = "Examples:
   groebot navigate nao --map room.txt --resolution 0.05 --start 0.5,0.5,90 --goal 2,1.5,0
   groebot navigate teo --map room.yaml --goal 3.2,1.5 --method m3r
   groebot navigate rh0 --map living_room.toml --furniture piano=1.2,0.4 --goal 4,3
-  groebot navigate talos.urdf --left left_sole_link --right right_sole_link --map room.yaml --goal 3,1
+  groebot navigate talos.urdf --map room.yaml --goal 3,1
 
 Metres, and degrees for headings; radians in files. The path is that of the middle of the feet. It
 has room for the robot at every heading; if there is no such path, room for the core of its body.

@@ -11,7 +11,7 @@ use super::moving::{self, Motion, described};
 use super::output::{Force, Kind, Output};
 use super::physics::{Case, Push, ScriptOutput, Stage, whole};
 use super::progress::{Limits, Session, seconds};
-use super::walker::{SoleArguments, named};
+use super::walker::{self, SoleArguments, named};
 use super::{Halt, Outcome, console};
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_humanoid::sim::{Comparison, Quantity, Usage, soles};
@@ -26,7 +26,7 @@ const EXAMPLES: &str = "Examples:
   groebot simulate walk.csv --friction 0.4 --slope 0,3 --mass 1.2 --push 4,60,0.1,90
   groebot simulate walk.csv --open-loop
   groebot simulate walk.csv --vary
-  groebot simulate walk.csv --model talos.urdf --left left_sole_link --right right_sole_link
+  groebot simulate walk.csv --model talos.urdf
 
 MuJoCo is an external program. GROEBOT_PYTHON is a Python that has it, by default python3 (python3
 -m venv mujoco && mujoco/bin/pip install mujoco). The robot is exported to MJCF as by `export`.
@@ -56,12 +56,8 @@ pub struct Arguments {
     /// The robot: nao, rh0, teo, or a description in URDF or TOML [default: the one that the walk names]
     #[arg(long, value_name = "ROBOT-or-FILE")]
     model: Option<PathBuf>,
-    /// The link of the left sole
-    #[arg(long, value_name = "LINK", default_value = "l_sole")]
-    left: String,
-    /// The link of the right sole
-    #[arg(long, value_name = "LINK", default_value = "r_sole")]
-    right: String,
+    #[command(flatten)]
+    soles: SoleArguments,
     /// Stiffness, damping and inertia of the motors, relative to the robot's size [default: 30,1.5,0.21]
     #[arg(long, value_name = "STIFFNESS,DAMPING,INERTIA", value_delimiter = ',', num_args = 1)]
     servo: Option<Vec<f64>>,
@@ -128,13 +124,14 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Outcome {
     let output = arguments.output()?;
     let (plan, robot, meshes) = arguments.read()?;
+    let (robot, feet) = walker::with_soles(robot, &meshes, &arguments.soles)?;
+    let feet = feet.each_ref().map(String::as_str);
     let mut notes = robot.parts().notes.clone();
     let model = robot.to_mjcf(&meshes, &mut notes)?;
     if !arguments.json {
         console::print_notes(&notes);
     }
     let nominal = arguments.case()?;
-    let feet = [&arguments.left[..], &arguments.right];
     let legs = legs(&robot, feet).map_err(|error| error.with_context("--left and --right are the soles"))?;
     let stage = Stage::new(&model, &plan, feet, arguments.servo.as_deref())?;
     let session = Session::start(Limits { time: Some(arguments.time), ..Limits::default() })?;
@@ -248,8 +245,7 @@ impl Arguments {
             return Ok(None);
         }
         let name = self.model.as_ref().map_or(plan.robot.clone(), |model| model.to_string_lossy().into_owned());
-        let soles = SoleArguments::of_links(&self.left, &self.right);
-        let walker = named(&name, Outline::default(), &soles, watch)?.walker;
+        let walker = named(&name, Outline::default(), &self.soles, watch)?.walker;
         Feedback::new(&walker, plan).map(Some)
     }
 

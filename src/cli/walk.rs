@@ -7,9 +7,9 @@ use nalgebra::Point2;
 use super::files::is_json;
 use super::output::{Force, Kind, Output};
 use super::progress::{Budget, Session};
-use super::walker::{self, GaitName, SoleArguments};
+use super::walker::{self, GaitName, Named, SoleArguments};
 use super::{Outcome, console};
-use crate::{Error, ErrorKind, Result};
+use crate::{Error, ErrorKind, Result, Watch};
 use groebot_algebra::limits;
 use groebot_humanoid::gait::{
     Biped, Chains, Difference, Forces, Gait, GaitDefaults, Laws, Measures, Regular, Request, Route, Side, Summary,
@@ -17,6 +17,7 @@ use groebot_humanoid::gait::{
 };
 use groebot_humanoid::walkers::Outline;
 use groebot_robot::document::read_text;
+use groebot_robot::robots;
 
 /// The greatest length of a file of footsteps in bytes.
 const FOOTSTEPS_LIMIT: u64 = limits::FOOTSTEPS_BYTES;
@@ -33,7 +34,8 @@ const EXAMPLES: &str = "Examples:
   groebot walk rh0 --plan \"out right, stride left, stride right, in left\" --thesis joints.csv
   groebot walk rh0 --plan \"turn left 90\" --plot turn.svg
   groebot walk teo --goal 1,0.5 -o goal.csv
-  groebot walk talos.urdf --left left_sole_link --right right_sole_link --goal 1,0 -o walk.csv
+  groebot walk talos.urdf --goal 1,0 -o walk.csv
+  groebot walk jvrc1.urdf --outline=-0.1,0.13,-0.06,0.06,-0.1 --goal 1,0
 
 Metres, seconds; degrees for --turn, --max-turn, --plan and in the summary, radians in files. The
 last of --steps closes the feet: 8 steps of 0.04 m move 0.28 m forward.
@@ -45,11 +47,13 @@ A phase that would be unstable or too fast is slowed down. Where that does not h
 are shortened. A walk that cannot be made stable is an error.
 
 Gaits: nao sine, preview, osg; rh0 rh0, rh0-real, osg; teo osg; others osg, preview. The first is
-the default.
+the default; others walk by preview where osg is refused.
 
-For a description, the solvers of the legs are derived first: six joints each, from the root link to
-the links of the soles. The root has x forward, y left, z up, and the feet are level at zero. The
-contact points are the lowest points of the collision shapes; meshes must be STL.";
+For a description, the soles are searched (--left, --right), and the solvers of the legs are derived:
+six joints each, or five, from the root link to the links of the soles. Joints that move both legs
+are held at zero. A root link with other axes than x forward, y left, z up is turned by quarter
+turns. The feet are level at zero. The contact points are the lowest points of the collision shapes;
+meshes must be STL. Without readable shapes the sole is assumed, with a note.";
 
 /// The outline of the soles.
 #[derive(Clone, Copy, clap::ValueEnum)]
@@ -194,11 +198,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
     };
     let output = arguments.output()?;
     let session = Session::start(arguments.budget.limits())?;
-    let walker = walker::named(&arguments.robot, outline, &arguments.soles, &session.watch)?.walker;
-    let defaults = arguments.defaults(&walker)?;
+    let Named { walker, robot, .. } = walker::named(&arguments.robot, outline, &arguments.soles, &session.watch)?;
     let biped = &walker.biped;
-    let request = |height, ease| arguments.request(&defaults.clone().eased(ease), biped, height);
-    let walk = plan_at((biped, &walker.legs), arguments.hip_height, &defaults.hip_heights, request, &session.watch)?;
+    let walk = arguments.planned(&walker, &session.watch)?;
     drop(session);
     let forces = arguments.torques.then(|| walk.forces(biped));
     let chains = forces.as_ref().filter(|_| arguments.chains).map(|forces| walk.chains(biped, forces));
@@ -206,6 +208,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     if arguments.budget.quiet {
         return Ok(());
     }
+    console::print_notes(&robot.parts().notes);
     console::print(&Summary::of(biped, &walk).to_string())?;
     let Some(forces) = forces else { return Ok(()) };
     console::print(&torques(biped, &walk, &forces))?;
@@ -237,9 +240,25 @@ fn torques(biped: &Biped, walk: &Walk, forces: &[Forces]) -> String {
 }
 
 impl Arguments {
-    /// The parameters of the gait, with the given ones replaced.
-    fn defaults(&self, walker: &Walker) -> Result<GaitDefaults> {
-        let mut defaults = walker::defaults(&walker.gaits, self.gait)?;
+    /// The walk by the given gait, or by the default one. A described robot walks by its first feasible gait.
+    fn planned(&self, walker: &Walker, watch: &Watch) -> Result<Walk> {
+        let biped = &walker.biped;
+        let planned = |gait: GaitDefaults| {
+            let defaults = self.defaults(gait)?;
+            let request = |height, ease| self.request(&defaults.clone().eased(ease), biped, height);
+            plan_at((biped, &walker.legs), self.hip_height, &defaults.hip_heights, request, watch)
+        };
+        let first = planned(walker::defaults(&walker.gaits, self.gait)?);
+        let is_refused = first.as_ref().is_err_and(|error| error.kind() == ErrorKind::BadValue);
+        if self.gait.is_some() || robots::robot(&self.robot).is_some() || !is_refused {
+            return first;
+        }
+        let others = walker.gaits.iter().skip(1);
+        others.map(|(_, gait)| planned(gait.clone())).find(Result::is_ok).unwrap_or(first)
+    }
+
+    /// The parameters of the gait `defaults`, with the given ones replaced.
+    fn defaults(&self, mut defaults: GaitDefaults) -> Result<GaitDefaults> {
         let places = [
             (&mut defaults.length, self.length),
             (&mut defaults.lift, self.lift),

@@ -6,10 +6,11 @@ use std::sync::Arc;
 use nalgebra::Point2;
 
 use crate::{Error, ErrorKind, Result, Watch};
-use groebot_humanoid::gait::{Biped, GaitDefaults, LegSolver, Mirrored, Walker};
+use groebot_humanoid::gait::{Footing, GaitDefaults, LegSolver, Walker};
 use groebot_humanoid::walkers::{self, Outline};
 use groebot_ik::derive::{Description, InputFile, Options};
 use groebot_robot::document::{is_stdin, shown};
+use groebot_robot::kinematics::Chain;
 use groebot_robot::model::{Meshes, Robot};
 use groebot_robot::robots;
 
@@ -47,28 +48,22 @@ pub fn defaults(gaits: &[(&'static str, GaitDefaults)], wanted: Option<GaitName>
 /// The soles of a robot that is described in a file.
 #[derive(clap::Args)]
 pub struct SoleArguments {
-    /// The link of the left sole; needed for a description
+    /// The link of the left sole [default: searched, the end of one of the two lowest mirrored limbs]
     #[arg(long, value_name = "LINK")]
     left: Option<String>,
-    /// The link of the right sole; needed for a description
+    /// The link of the right sole [default: searched]
     #[arg(long, value_name = "LINK")]
     right: Option<String>,
-    /// The contact area of the left sole in its link's frame: back, front, right, left, and optionally its height [m]
-    /// (default height: 0); mirrored for the right sole
+    /// The contact area of the left sole from its link's origin, in the axes of the torso: back, front, right, left,
+    /// and optionally its height [m] (default height: 0); mirrored for the right sole [default: the lowest points of
+    /// its shapes]
     #[arg(long, value_name = "X0,X1,Y0,Y1[,Z]", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
     outline: Option<Vec<f64>>,
 }
 
-impl SoleArguments {
-    /// The soles that are these links.
-    pub fn of_links(left: &str, right: &str) -> Self {
-        SoleArguments { left: Some(left.to_owned()), right: Some(right.to_owned()), outline: None }
-    }
-}
-
 /// A walking robot, as given to a command.
 pub struct Named {
-    /// Its description.
+    /// Its description, as the walker plans with it: its root link is the torso.
     pub robot: Robot,
     /// The folders of its meshes.
     pub meshes: Meshes,
@@ -79,8 +74,8 @@ pub struct Named {
 /// The robot of that name, or from a file.
 ///
 /// # Errors
-/// [`ErrorKind::UnknownName`] for what is neither a robot of this crate nor a file; [`ErrorKind::MissingKey`] without the soles' links; those of
-/// the readers, of [`Biped::new`], of [`Options::derive`] and of [`Walker::new`].
+/// [`ErrorKind::UnknownName`] for what is neither a robot of this crate nor a file; those of the readers, of [`Footing::find`],
+/// [`Footing::walker`] and [`Options::derive`].
 pub fn named(name: &str, outline: Outline, soles: &SoleArguments, watch: &Watch) -> Result<Named> {
     match (walkers::walker(name, outline), robots::robot(name)) {
         (Some(walker), Some(robot)) => Ok(Named { robot, meshes: Meshes::default(), walker: walker? }),
@@ -102,43 +97,41 @@ fn described(file: &Path, soles: &SoleArguments, watch: &Watch) -> Result<Named>
         return Err(Error::new(ErrorKind::BadValue, text).in_file(file));
     };
     let at_file = |error: Error| error.in_file(file);
-    let names = soles.links(&robot).map_err(at_file)?;
     let meshes = Meshes::beside(file);
-    let biped = match &soles.outline {
-        Some(outline) => {
-            let (height, outlines) = outlines(outline)?;
-            Biped::on_outlines(&robot, names, height, outlines)
-        }
-        None => Biped::new(&robot, names, &meshes),
+    let footing = soles.footing(&robot, &meshes).map_err(at_file)?;
+    let leg = |chain: &Chain| -> Result<LegSolver> {
+        Ok(Arc::new(Options::new().watch(watch.clone()).derive(chain)?.solver()))
     };
-    let biped = biped.map_err(at_file)?;
-    let leg = |name: &str| -> Result<LegSolver> {
-        let chain = robot.chain(None, Some(name)).map_err(at_file)?;
-        Ok(Arc::new(Options::new().watch(watch.clone()).derive(&chain)?.solver()))
-    };
-    let left = leg(names[0])?;
-    let right: LegSolver = match Mirrored::right(&biped, &left) {
-        Some(right) => Arc::new(right),
-        None => leg(names[1])?,
-    };
-    let solvers = [left, right];
-    let walker = Walker::new(&robot, biped, solvers).map_err(at_file)?;
-    Ok(Named { robot, meshes, walker })
+    let walker = footing.walker(leg).map_err(at_file)?;
+    let notes = footing.notes().to_vec();
+    Ok(Named { robot: footing.robot().clone().with_notes(notes), meshes, walker })
+}
+
+/// The robot with the collision shapes of its soles, and the links of its soles, left and right. The soles of a robot
+/// of groebot are `l_sole` and `r_sole`.
+///
+/// # Errors
+/// Those of [`Footing::find`] and [`Footing::shod`].
+pub fn with_soles(robot: Robot, meshes: &Meshes, soles: &SoleArguments) -> Result<(Robot, [String; 2])> {
+    let own = ["l_sole", "r_sole"];
+    let is_known = robots::robot(robot.name()).is_some() && own.iter().all(|link| robot.link(link).is_ok());
+    if is_known && !soles.is_given() {
+        return Ok((robot, own.map(str::to_owned)));
+    }
+    let footing = soles.footing(&robot, meshes)?;
+    let shod = footing.shod(&robot)?.with_notes(footing.notes().to_vec());
+    Ok((shod, footing.soles().map(str::to_owned)))
 }
 
 impl SoleArguments {
-    /// The links of the soles, left and right.
-    fn links(&self, robot: &Robot) -> Result<[&str; 2]> {
-        match (&self.left, &self.right) {
-            (Some(left), Some(right)) => Ok([left, right]),
-            _ => {
-                let ends = robot.suggested_tips(robot.root_place()).into_iter().take(20);
-                let ends: Vec<String> = ends.map(|link| format!("`{}`", shown(link))).collect();
-                let text =
-                    format!("which links are the soles? give --left and --right; the limbs end in {}", ends.join(", "));
-                Err(Error::new(ErrorKind::MissingKey, text))
-            }
-        }
+    /// Whether an option is given.
+    pub fn is_given(&self) -> bool {
+        self.left.is_some() || self.right.is_some() || self.outline.is_some()
+    }
+
+    fn footing(&self, robot: &Robot, meshes: &Meshes) -> Result<Footing> {
+        let outline = self.outline.as_deref().map(outlines).transpose()?;
+        Footing::find(robot, meshes, [self.left.as_deref(), self.right.as_deref()], outline)
     }
 }
 

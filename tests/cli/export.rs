@@ -27,7 +27,13 @@ fn a_robot_is_exported_and_walks_from_its_file() {
     let walk_of = groebot::motion::Trajectory::read_csv(&csv).unwrap();
     assert!(walk_of.joints.iter().any(|joint| joint.name == "LKneePitch") && walk_of.times.len() > 100);
     assert!(walk(&["--gait", "preview"]).contains("by preview control"));
-    assert!(walk(&["--outline", "-0.1,0.12,-0.05,0.06"]).contains("one step goal"));
+    let outline = ["--outline", "-0.1,0.12,-0.05,0.06,-0.02"];
+    assert!(walk(&outline).contains("one step goal"));
+    // The same soles are found without --left and --right, and the outline is the shape of the soles in MJCF.
+    assert_eq!(succeed(&["walk", text(&urdf), "--goal", "0.2,0.05,20"]), walk(&[]));
+    let exported = succeed(&[&["export", text(&urdf), "--to", "mjcf"][..], &outline].concat());
+    assert_eq!(exported.matches("type=\"box\" size=\"0.11 0.055 0.005\"").count(), 2, "{exported}");
+    assert!(refused(&["export", "teo", "--to", "x3d", "--left", "l_sole"]).contains("for urdf and mjcf"));
 
     // The same soles as triangles of an STL file.
     let box_of = "<box size=\"0.24 0.14 0.01\"/>";
@@ -68,13 +74,12 @@ fn what_cannot_be_walked_or_exported_is_refused() {
     let described = fs::read_to_string(&urdf).unwrap();
     let walk =
         |left: &str, right: &str| refused(&["walk", text(&urdf), "--left", left, "--right", right, "--steps", "2"]);
-    assert!(refused(&["walk", text(&urdf), "--steps", "2"]).contains("give --left and --right"));
     assert!(walk("l_sole", "r_shoe").contains("no link `r_shoe` (did you mean `r_sole`?)"));
     assert!(walk("l_sole", "l_sole").contains("moves both feet"));
     assert!(walk("RootWaist", "r_sole").contains("there are 0 joints between the root and `RootWaist`"));
     fs::write(&urdf, described.replace("<box size=\"0.24 0.14 0.01\"/>", "<mesh filename=\"nowhere.stl\"/>")).unwrap();
-    let reported = walk("l_sole", "r_sole");
-    assert!(reported.contains("nowhere.stl") && reported.contains("--outline"), "{reported}");
+    let ran = run(&["walk", text(&urdf), "--steps", "2"]);
+    assert!(ran.code == 0 && ran.err.contains("nowhere.stl") && ran.err.contains("--outline"), "{}", ran.err);
     let outline = |numbers: &str| {
         ["walk", text(&urdf), "--left", "l_sole", "--right", "r_sole", "--steps", "2", "--outline", numbers]
             .map(str::to_owned)

@@ -2,15 +2,14 @@
 
 use nalgebra::{Point2, Point3};
 
+use super::contact::{Outline, touching};
 use super::footprint::{Footprint, Side};
 use super::polygon::Polygon;
+use super::walker::sagittal;
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::dynamics::{Clearance, Model};
 use groebot_robot::model::{Meshes, Robot};
 use groebot_robot::spatial::Pose;
-
-/// Points within this height of a sole's lowest point touch a slightly compliant floor \[m\].
-const FLAT: f64 = 2e-3;
 
 /// A joint with the limits that a gait respects.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,7 +47,7 @@ pub struct Foot {
 }
 
 /// A biped: its joints, masses and soles. The torso is the root link, with x forward, y left, z up; the feet are level
-/// at the zero configuration.
+/// at the zero configuration. [`Footing`](super::Footing) makes it from descriptions with other frames.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Biped {
@@ -62,10 +61,14 @@ pub struct Biped {
     pub model: Model,
     /// The feet, left and right.
     pub feet: [Foot; 2],
-    /// The positions of the legs' third joints, left and right, in the torso frame \[m\].
+    /// The positions of the hips, left and right, in the torso frame \[m\]: on the first joint that swings the leg
+    /// forward.
     pub hips: [Point3<f64>; 2],
     /// The pairs of links that may touch each other.
     pub clearance: Clearance,
+    /// The root link of the description in the frame of the torso: the identity unless the link has other axes than x
+    /// forward, y left, z up.
+    pub torso_from_root: Pose,
     /// The names of the links, by their indices in the robot.
     pub links: Vec<String>,
     /// Whether the whole mass is a point at the torso's centre of mass, because the links' own masses are not given.
@@ -97,13 +100,14 @@ impl Biped {
         Biped::with_outlines(robot, Model::new(robot)?, links, outlines.map(|outline| (height, outline)))
     }
 
+    /// Same as [`Biped::new`], but with the links' indices, with soles by `outlines`, and with the frame of the torso.
+    pub(super) fn on(robot: &Robot, links: [usize; 2], outlines: [Outline; 2], torso_from_root: Pose) -> Result<Self> {
+        let biped = Biped::with_outlines(robot, Model::new(robot)?, links, outlines)?;
+        Ok(Biped { torso_from_root, ..biped })
+    }
+
     /// `outlines` are the height of each sole's plane above its link's origin, and the contact points in that plane.
-    fn with_outlines(
-        robot: &Robot,
-        model: Model,
-        links: [usize; 2],
-        outlines: [(f64, Vec<Point2<f64>>); 2],
-    ) -> Result<Self> {
+    fn with_outlines(robot: &Robot, model: Model, links: [usize; 2], outlines: [Outline; 2]) -> Result<Self> {
         let bad = |text: String| Err(Error::new(ErrorKind::BadValue, format!("{}: {text}", robot.name())));
         if model.mass().is_nan() || model.mass() <= 0.0 {
             return bad("it has no mass; a walk needs the masses of its links".to_owned());
@@ -119,7 +123,7 @@ impl Biped {
             }
             if foot.corners.len() < 3 {
                 return bad(format!(
-                    "`{name}` has no collision shape that could touch the floor; give the outline of the soles"
+                    "`{name}` has no collision shape that could touch the floor; give the outline of the soles (--outline)"
                 ));
             }
         }
@@ -129,8 +133,10 @@ impl Biped {
                 "joint `{name}` moves both feet; the root link must be the torso that carries both legs"
             ));
         }
-        let hip =
-            |foot: &Foot| model.joints()[foot.joints[2]].screw.axis().map_or(Point3::origin(), |axis| axis.point());
+        let hip = |foot: &Foot| {
+            let [hip, ..] = sagittal(&model, &foot.joints);
+            model.joints()[hip].screw.axis().map_or(Point3::origin(), |axis| axis.point())
+        };
         let shared = |actuator: &groebot_robot::model::Actuator| {
             let places: Vec<usize> = actuator.joints.iter().filter_map(|(name, _)| model.joint(name).ok()).collect();
             let of = |foot: &Foot| places.iter().copied().find(|joint| foot.joints.contains(joint));
@@ -148,6 +154,7 @@ impl Biped {
             is_point_mass: (1..=model.joints().len()).all(|body| model.inertia_of(body).mass() == 0.0),
             feet: [left, right],
             clearance: Clearance::new(robot, &model),
+            torso_from_root: Pose::identity(),
             links: robot.links().iter().map(|link| link.name.clone()).collect(),
             model,
         })
@@ -224,27 +231,4 @@ fn foot(model: &Model, link: usize, (height, corners): &(f64, Vec<Point2<f64>>))
     let ankle = joints.last().and_then(|joint| model.joints()[*joint].screw.axis()).map_or(at.z, |axis| axis.point().z);
     let ankle_height = ankle - torso_from_sole.translation.z;
     Foot { link, body, torso_from_sole, ankle_height, corners: corners.clone(), joints }
-}
-
-/// The height of the lowest points of all bodies fixed to a link, relative to the link's origin. Also the ground projection of these points in the torso's
-/// axes.
-fn touching(robot: &Robot, model: &Model, link: usize, meshes: &Meshes) -> Result<(f64, Vec<Point2<f64>>)> {
-    let (body, torso_from_sole) = model.link(link);
-    let at = torso_from_sole.translation.vector;
-    let mut points: Vec<Point3<f64>> = Vec::new();
-    for (place, other) in robot.links().iter().enumerate() {
-        let (own, torso_from_link) = model.link(place);
-        for shape in other.collisions.iter().filter(|_| own == body) {
-            let torso_from_shape = torso_from_link * shape.pose();
-            let read = meshes.points(&shape.solid).map_err(|error| {
-                let text = format!("{error}; or give the outline of the soles (--outline)");
-                Error::new(error.kind(), text)
-            });
-            points.extend(read?.into_iter().map(|point| torso_from_shape * point - at));
-        }
-    }
-    let lowest = points.iter().map(|point| point.z).fold(f64::INFINITY, f64::min);
-    let touching: Vec<Point2<f64>> = points.iter().filter(|point| point.z <= lowest + FLAT).map(Point3::xy).collect();
-    let height = if lowest.is_finite() { lowest } else { 0.0 };
-    Ok((height, Polygon::hull(&touching).corners().to_vec()))
 }

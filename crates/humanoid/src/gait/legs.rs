@@ -2,10 +2,12 @@
 
 use std::sync::Arc;
 
+use nalgebra::{Vector2, Vector3};
+
 use super::biped::Biped;
 use super::footprint::Side;
 use crate::{Error, ErrorKind, Result};
-use groebot_robot::kinematics::{InverseKinematics, Target};
+use groebot_robot::kinematics::{InverseKinematics, Solution, Target};
 use groebot_robot::spatial::{Pose, angle};
 
 /// A knee within this angle of zero is straight \[rad\]. There its angle is known only to the square root of the
@@ -26,6 +28,29 @@ pub struct Posture {
 /// torso to the sole.
 pub type LegSolver = Arc<dyn InverseKinematics>;
 
+/// A solver for poses of a sole that holds its position and a direction; the rotation about the direction is free.
+#[derive(Debug)]
+struct Pointing {
+    /// The solver of the position and the direction.
+    ray: LegSolver,
+    /// The direction in the frame of the sole's link.
+    direction: Vector3<f64>,
+}
+
+/// Makes a solver for poses of a sole's link from the solver of a ray. It holds the link's position and its direction
+/// `direction`, a unit vector of the link's frame; the rotation about it is free.
+pub(super) fn pointing(ray: LegSolver, direction: Vector3<f64>) -> impl InverseKinematics {
+    Pointing { ray, direction }
+}
+
+impl InverseKinematics for Pointing {
+    fn solve(&self, target: &Target, given: &[f64], out: &mut Vec<Solution>) -> Result<()> {
+        let Target::Pose(pose) = target else { return self.ray.solve(target, given, out) };
+        let direction = pose.rotation * self.direction;
+        self.ray.solve(&Target::Ray { point: pose.translation.vector.into(), direction }, given, out)
+    }
+}
+
 /// The solvers of both legs of a biped.
 #[derive(Clone, Debug)]
 pub struct Legs {
@@ -35,6 +60,9 @@ pub struct Legs {
     shared: Option<(usize, usize)>,
     /// Joints of the arms, each with the joint of a leg whose value it takes.
     coordinated: Vec<(usize, usize)>,
+    /// The offset of the torso from the centre of mass, seen from above, from which the search for postures starts
+    /// \[m\].
+    lead: Vector2<f64>,
 }
 
 /// The solver of one leg.
@@ -64,13 +92,34 @@ impl Legs {
         let [left, right] = solvers;
         let leg = |side: Side, solver| Leg::new(biped, side, solver, &crouch);
         let legs = [leg(Side::Left, left), leg(Side::Right, right)];
-        Ok(Legs { legs, crouch, shared: biped.shared.first().copied(), coordinated: Vec::new() })
+        Ok(Legs {
+            legs,
+            crouch,
+            shared: biped.shared.first().copied(),
+            coordinated: Vec::new(),
+            lead: Vector2::zeros(),
+        })
     }
 
     /// Adds joints of other limbs that take the value of a joint of a leg: pairs of the follower and the leader.
     #[must_use]
     pub(crate) fn with_coordinated(self, coordinated: Vec<(usize, usize)>) -> Self {
         Legs { coordinated, ..self }
+    }
+
+    /// Starts the search for postures with the torso and the centre of mass as in the crouch.
+    ///
+    /// # Errors
+    /// None for the biped of these legs.
+    pub(crate) fn starting_from_crouch(self, biped: &Biped) -> Result<Self> {
+        let centre = biped.model.place(&Pose::identity(), &self.crouch)?.centre_of_mass();
+        Ok(Legs { lead: -centre.coords.xy(), ..self })
+    }
+
+    /// The offset of the torso from the centre of mass from which the search for postures starts, in the axes of the
+    /// torso \[m\].
+    pub(crate) fn lead(&self) -> Vector2<f64> {
+        self.lead
     }
 
     /// The posture with the soles at the poses `world_from_soles`, left and right, and the torso at `world_from_torso`.

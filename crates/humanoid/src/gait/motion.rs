@@ -1,7 +1,7 @@
 //! Joint angles from the references of feet and centre of mass, sample by sample: inverse kinematics of the legs, and a quasi-Newton search (Broyden) for the
 //! torso. Main type: [`Motion`].
 
-use nalgebra::{Matrix3, Point3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Point3, Rotation2, UnitQuaternion, Vector3};
 
 use super::biped::Biped;
 use super::footprint::heading_of;
@@ -130,7 +130,7 @@ impl TorsoSearch {
         known: &Vector3<f64>,
     ) -> Result<Point3<f64>> {
         let origin = Vector3::new(reference.centre.x, reference.centre.y, reference.heading) + known;
-        let mut torso = origin + self.guess();
+        let mut torso = origin + self.guess(legs, reference.heading, known);
         let mut before: Option<(Vector3<f64>, Vector3<f64>)> = None;
         for _ in 0..MOST_CORRECTIONS {
             let mut posture = self.stand(legs, reference, &torso)?;
@@ -184,9 +184,13 @@ impl TorsoSearch {
         Ok(Matrix3::from_diagonal(&diagonal))
     }
 
-    /// Extrapolates the torso's offset by the polynomial through the last samples.
-    fn guess(&self) -> Vector3<f64> {
+    /// Extrapolates the torso's offset by the polynomial through the last samples. Without samples it is that of the
+    /// legs' crouch.
+    fn guess(&self, legs: &Legs, heading: f64, known: &Vector3<f64>) -> Vector3<f64> {
         let count = self.leads.len();
+        if count == 0 && *known == Vector3::zeros() {
+            return (Rotation2::new(heading) * legs.lead()).push(0.0);
+        }
         let mut factor = -1.0;
         let term = |(place, lead): (usize, &Vector3<f64>)| {
             // Binomial coefficients with alternating signs, starting with `count`.

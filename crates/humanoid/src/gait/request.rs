@@ -23,10 +23,14 @@ impl Gait {
         matches!(self, Gait::OneStep(_))
     }
 
-    /// The phases of a walk of `steps` steps.
+    /// The phases of a walk of `steps` steps; without steps the robot stands.
     pub(crate) fn actions(&self, steps: usize) -> Vec<Action> {
         if let Gait::OneStep(one_step) = self {
-            return one_step.actions(steps);
+            let actions = one_step.actions(steps);
+            return if actions.is_empty() { vec![Action::Rest] } else { actions };
+        }
+        if steps == 0 {
+            return vec![Action::Rest];
         }
         let walk = (0..steps).flat_map(|step| [Action::Shift(step), Action::Swing(step)]);
         [Action::Rest].into_iter().chain(walk).chain([Action::Shift(steps), Action::Rest]).collect()

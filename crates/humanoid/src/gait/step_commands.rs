@@ -94,7 +94,8 @@ impl Route {
 
     /// Makes a route to `goal` \[m\], in the frame of parallel feet about the origin, step by step. Each step turns the
     /// robot to the goal by at most `most_turn` and moves up to a length forward. The last step closes the feet, RH0
-    /// 3.3. With a `heading` \[rad\] the robot turns to it on the spot first.
+    /// 3.3. With a `heading` \[rad\] the robot turns to it on the spot at the end. At its goal already, it stands: the
+    /// route has no steps.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] when the goal is not finite or too far, or a dimension is not finite and positive.
@@ -131,6 +132,9 @@ impl Route {
             builder.land(side)?;
             side = side.other();
             left -= yaw;
+        }
+        if builder.steps.is_empty() {
+            return Ok(Route::at_rest(start));
         }
         builder.land(side)?;
         let mut route = builder.route(start)?;

@@ -2,10 +2,15 @@
 
 use std::fmt;
 
+use nalgebra::Vector3;
+
 use super::biped::Biped;
 use super::plan::Walk;
 use super::request::Gait;
 use super::schedule::Action;
+
+/// A supporting sole with a smaller angle to the floor is level \[rad\].
+const TILTED: f64 = 1e-3;
 
 /// An extreme value with its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,6 +59,8 @@ pub struct Summary {
     /// Pairs of links that touch, by their names, with the greatest penetration \[m\] and its first time; deepest
     /// first.
     pub touching: Vec<([String; 2], Extreme)>,
+    /// The greatest angle between a supporting sole and the floor \[rad\]: legs of five joints leave a rotation free.
+    pub tilt: Extreme,
     /// The number of phases that are slowed down, and the greatest factor.
     pub slowed: (usize, f64),
 }
@@ -78,7 +85,7 @@ impl Summary {
             distance,
             turn: middles[1].yaw - middles[0].yaw,
             torso_height: walk.request.style.torso_height,
-            speed: distance / walking,
+            speed: if walking > 0.0 { distance / walking } else { 0.0 },
             margin: least_margin(walk),
             static_margin: extreme(walk, &|sample| -walk.balances[sample].static_margin, -1.0),
             pendulum_error: extreme(
@@ -89,9 +96,24 @@ impl Summary {
             nearest_limit: nearest_limit(biped, walk),
             fastest: fastest(biped, walk),
             touching: touching(biped, walk),
+            tilt: tilt(biped, walk),
             slowed: (slowed.clone().count(), slowed.map(|phase| phase.slowed).fold(1.0, f64::max)),
         }
     }
+}
+
+/// The greatest angle between a supporting sole and the floor.
+fn tilt(biped: &Biped, walk: &Walk) -> Extreme {
+    let angle = |sample: usize| {
+        let posture = &walk.motion.postures[sample];
+        let Ok(placed) = biped.model.place(&posture.world_from_torso, &posture.q) else { return 0.0 };
+        let tilted = |(foot, stands): (&super::Foot, &bool)| {
+            let up = placed.motion(foot.body).rotation * foot.torso_from_sole.rotation * Vector3::z();
+            if *stands { up.xy().norm().atan2(up.z) } else { 0.0 }
+        };
+        biped.feet.iter().zip(&walk.references[sample].stands).map(tilted).fold(0.0, f64::max)
+    };
+    extreme(walk, &angle, 1.0)
 }
 
 /// The least margin of the zero moment point, RH0 (3-5) \[m\].
@@ -198,6 +220,14 @@ impl fmt::Display for Summary {
         )?;
         for ([one, other], depth) in &self.touching {
             writeln!(f, "  links touch     {one} and {other}, {}", millimetres(depth))?;
+        }
+        if self.tilt.value > TILTED {
+            writeln!(
+                f,
+                "  soles           tilt by {:.1} deg at {:.2} s: the legs do not hold this rotation",
+                self.tilt.value.to_degrees(),
+                self.tilt.time
+            )?;
         }
         match self.slowed {
             (0, _) => writeln!(f, "  phases          none had to be slowed down"),

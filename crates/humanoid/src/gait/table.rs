@@ -13,7 +13,7 @@ use super::summary::Summary;
 use groebot_robot::motion::{Contact, Figure, JointTrack, Track, Trajectory};
 
 impl Walk {
-    /// The walk as a trajectory. Its base is the torso and its contacts are the soles `left` and `right`. Its points
+    /// The walk as a trajectory. Its base is the root link and its contacts are the soles `left` and `right`. Its points
     /// are the centre of mass `com` and the zero moment points of the multibody, `zmp`, and of the pendulum,
     /// `pendulum`. Its figures are `static_margin` and `margin` \[m\].
     pub fn trajectory(&self, biped: &Biped) -> Trajectory {
@@ -43,7 +43,7 @@ impl Walk {
             joints: biped.joints.iter().map(joint).collect(),
             times: (0..self.balances.len()).map(|sample| self.time(sample)).collect(),
             q: postures.iter().map(|posture| posture.q.clone()).collect(),
-            base: postures.iter().map(|posture| posture.world_from_torso).collect(),
+            base: postures.iter().map(|posture| posture.world_from_torso * biped.torso_from_root).collect(),
             contacts: vec![contact(Side::Left), contact(Side::Right)],
             points: vec![
                 Track { name: "com".to_owned(), at: self.motion.centres.clone() },

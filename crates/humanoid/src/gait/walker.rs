@@ -14,6 +14,7 @@ use super::polygon::Polygon;
 use super::request::Gait;
 use super::zmp::GRAVITY;
 use crate::{Error, ErrorKind, Result};
+use groebot_robot::dynamics::Model;
 use groebot_robot::kinematics::Target;
 use groebot_robot::model::Robot;
 
@@ -35,6 +36,9 @@ const HEIGHTS: [f64; 8] = [0.965, 0.955, 0.94, 0.925, 0.91, 0.89, 0.87, 0.84];
 const UPRIGHT: f64 = 0.985;
 /// The least distance of a joint that does not walk from its limits \[rad or m\].
 const ASIDE: f64 = 1e-3;
+/// The least cosine of the angle between the lateral direction and an axis that swings a leg forward. NAO's axis for
+/// yaw and pitch is at 45 degrees.
+const ACROSS: f64 = 0.8;
 /// The duration of a step in units of sqrt(leg length / gravity), a pendulum's unit of time.
 const PERIOD: f64 = 19.0;
 
@@ -45,11 +49,11 @@ impl Walker {
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] when no posture with bent knees within the limits has the soles below the hips.
-    /// [`ErrorKind::Unsupported`] for legs that do not have six joints.
+    /// [`ErrorKind::Unsupported`] for legs that do not have five or six joints.
     pub fn new(robot: &Robot, biped: Biped, solvers: [LegSolver; 2]) -> Result<Self> {
-        if let Some(foot) = biped.feet.iter().find(|foot| foot.joints.len() != 6) {
+        if let Some(foot) = biped.feet.iter().find(|foot| !matches!(foot.joints.len(), 5 | 6)) {
             let text = format!(
-                "{}: a leg has {} joints; only legs with six joints are supported",
+                "{}: a leg has {} joints between the torso and its sole; legs with five or six joints are supported; other links are given by --left and --right",
                 biped.name,
                 foot.joints.len()
             );
@@ -60,7 +64,7 @@ impl Walker {
             let answer = crouched(&biped, foot, solver)?;
             foot.joints.iter().zip(answer).for_each(|(joint, value)| crouch[*joint] = value);
         }
-        let legs = Legs::new(&biped, solvers, crouch)?;
+        let legs = Legs::new(&biped, solvers, crouch)?.starting_from_crouch(&biped)?;
         let gaits = vec![("osg", one_step(&biped)), ("preview", preview(&biped))];
         Ok(Walker { biped, legs, gaits })
     }
@@ -68,14 +72,18 @@ impl Walker {
 
 /// All joints at zero, or at the nearest limit; joints that follow others take the value of their leader.
 fn at_rest(robot: &Robot, biped: &Biped) -> Vec<f64> {
-    let rest = |range: &super::JointRange| match range.limits {
+    let mut q: Vec<f64> = biped.joints.iter().map(|range| rest(range.limits)).collect();
+    robot.follow(&mut q);
+    q
+}
+
+/// The value of a joint with these limits that does not walk: zero, or the nearest limit.
+pub(super) fn rest(limits: (f64, f64)) -> f64 {
+    match limits {
         (low, high) if low < 0.0 && high > 0.0 => 0.0,
         (low, high) if high - low > 2.0 * ASIDE => 0f64.clamp(low + ASIDE, high - ASIDE),
         (low, high) => (low + high) / 2.0,
-    };
-    let mut q: Vec<f64> = biped.joints.iter().map(rest).collect();
-    robot.follow(&mut q);
-    q
+    }
 }
 
 /// The first posture of a leg within its limits with the sole below the hip and a bent knee.
@@ -87,10 +95,10 @@ fn crouched(biped: &Biped, foot: &Foot, solver: &LegSolver) -> Result<Vec<f64>> 
         answer.iter().zip(ranges).all(|(value, (low, high))| low <= *value && *value <= high)
     };
     let size = |answer: &Vec<f64>| answer.iter().map(|value| value.abs()).fold(0.0, f64::max);
-    let (hip, length) = (biped.hips[0].z, leg(biped));
+    let (hip, (length, ankle)) = (biped.hips[0].z, leg(biped));
     for share in HEIGHTS.into_iter().rev() {
         let mut torso_from_sole = foot.torso_from_sole;
-        torso_from_sole.translation.z = hip - share * length - foot.ankle_height;
+        torso_from_sole.translation.z = hip - share * length - ankle;
         let mut found = Vec::new();
         solver.solve(&Target::Pose(torso_from_sole * sole_from_link), &[], &mut found)?;
         let best = found.into_iter().map(|answer| answer.q).filter(within).min_by(|a, b| size(a).total_cmp(&size(b)));
@@ -102,13 +110,37 @@ fn crouched(biped: &Biped, foot: &Foot, solver: &LegSolver) -> Result<Vec<f64>> 
     Err(Error::new(ErrorKind::BadValue, text))
 }
 
-/// The length of the stretched left leg, from the third joint through the knee to the last one \[m\].
-fn leg(biped: &Biped) -> f64 {
-    let at = |place: usize| biped.model.joints()[biped.feet[0].joints[place]].screw.axis().map(|axis| axis.point());
-    match (at(2), at(3), at(5)) {
+/// The joints of a leg that swing it forward, at the hip, the knee and the ankle: the first two and the last one whose
+/// axes point to the left, as indices into a configuration. Without three of these, the third, the fourth and the last
+/// joint.
+pub(super) fn sagittal(model: &Model, joints: &[usize]) -> [usize; 3] {
+    let to_the_left =
+        |joint: &&usize| model.joints()[**joint].screw.axis().is_some_and(|axis| axis.direction().y.abs() > ACROSS);
+    let across: Vec<usize> = joints.iter().filter(to_the_left).copied().collect();
+    match across[..] {
+        [hip, knee, .., ankle] => [hip, knee, ankle],
+        _ => [2, 3, joints.len()].map(|place| joints[place.min(joints.len() - 1)]),
+    }
+}
+
+/// The length of the stretched leg with these joints, seen from the side: from the hip through the knee to the ankle
+/// \[m\].
+pub(super) fn leg_length(model: &Model, joints: &[usize]) -> f64 {
+    let at = |joint: usize| model.joints()[joint].screw.axis().map(|axis| axis.point().xz());
+    let [hip, knee, ankle] = sagittal(model, joints).map(at);
+    match (hip, knee, ankle) {
         (Some(hip), Some(knee), Some(ankle)) => (knee - hip).norm() + (ankle - knee).norm(),
         _ => 0.0,
     }
+}
+
+/// The length of the left leg, and the height of the end of this length above the sole \[m\].
+fn leg(biped: &Biped) -> (f64, f64) {
+    let foot = &biped.feet[0];
+    let [_, _, ankle] = sagittal(&biped.model, &foot.joints);
+    let sole = foot.torso_from_sole.translation.z;
+    let height = biped.model.joints()[ankle].screw.axis().map_or(0.0, |axis| axis.point().z - sole);
+    (leg_length(&biped.model, &foot.joints), height)
 }
 
 /// The distance of the sole's middle forward of its frame, and the distance from there to the border \[m\].
@@ -122,9 +154,8 @@ fn sole(biped: &Biped) -> (f64, f64) {
 /// One step goal by the generic laws of RH0 3.3: all parameters are fractions of the leg's length and of the sole's
 /// half width.
 fn one_step(biped: &Biped) -> GaitDefaults {
-    let (length, (ahead, room)) = (leg(biped), sole(biped));
-    let ankle_height = biped.feet[0].ankle_height;
-    let height = |share: f64| share * length + ankle_height;
+    let ((length, ankle), (ahead, room)) = (leg(biped), sole(biped));
+    let height = |share: f64| share * length + ankle;
     GaitDefaults {
         gait: Gait::OneStep(OneStep { laws: Laws::Generic, dip: 0.006 * length, pitch: 0.0, upright: None }),
         length: 0.16 * length,

@@ -46,7 +46,8 @@ impl Observer {
         let weight = biped.model.mass() * crate::gait::GRAVITY;
         let pressed = state.soles.map(|sole| sole.force.z.max(0.0));
         let shares = shares(plan, pressed, weight);
-        let upright = Isometry3::from_parts(Translation3::identity(), state.orientation);
+        let orientation = state.orientation * biped.torso_from_root.rotation.inverse();
+        let upright = Isometry3::from_parts(Translation3::identity(), orientation);
         let placed = biped.model.place(&upright, &state.q)?;
         let own = [0, 1].map(|side| {
             let foot = &biped.feet[side];

@@ -46,8 +46,9 @@ impl PlannedWalk {
             .map(|(column, joint)| Ok((column, walker.biped.joint(&joint.name)?)))
             .collect::<Result<_>>()?;
         let crouch = walker.legs.crouch();
+        let root_from_torso = walker.biped.torso_from_root.inverse();
         let row = |row: usize| {
-            let mut posture = Posture { world_from_torso: walk.base[row], q: crouch.q.clone() };
+            let mut posture = Posture { world_from_torso: walk.base[row] * root_from_torso, q: crouch.q.clone() };
             joints.iter().for_each(|(column, joint)| posture.q[*joint] = walk.q[row][*column]);
             let centre = walker.biped.model.place(&posture.world_from_torso, &posture.q)?.centre_of_mass();
             Ok(Instant {

@@ -3,6 +3,7 @@
 mod any;
 mod drawing;
 mod errata;
+mod footing;
 mod forces;
 mod goals;
 mod long;

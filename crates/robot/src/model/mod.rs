@@ -5,6 +5,7 @@
 //! link without mass at a fixed joint, as in a URDF. A [`Chain`](crate::kinematics::Chain) is a path in a robot.
 
 mod attributes;
+mod changed;
 mod check;
 mod fault;
 mod finite;

@@ -2,11 +2,11 @@
 
 use num_traits::{One, Zero};
 
+use super::changed::hold;
 use super::check;
 use super::{Actuator, Fault, Joint, JointType, Link, Mimic, Part, RobotParts};
 use crate::document::shown;
 use crate::spatial::NEGLIGIBLE;
-use crate::spatial::exact::Placement;
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::BigRational;
 
@@ -82,12 +82,7 @@ impl Robot {
         let mut parts = self.parts.clone();
         for (joint, fixed) in self.parts.joints.iter().zip(&mut parts.joints) {
             let Some(value) = self.constant(joint).filter(|_| joint.kind.is_single()) else { continue };
-            let held = match joint.kind {
-                JointType::Prismatic => Placement::shifted_along(&joint.axis, &value),
-                _ => Placement::turned_about(&joint.axis, &value),
-            };
-            fixed.origin = joint.origin.placement.then(&held).into();
-            (fixed.kind, fixed.limits, fixed.mimic) = (JointType::Fixed, None, None);
+            hold(joint, fixed, &value);
         }
         Robot::with_faults(parts)
     }

@@ -1,5 +1,6 @@
 //! Robots: reading of URDF and TOML, writing, and extraction of chains.
 
+mod changed;
 mod mesh;
 mod mjcf;
 mod read;

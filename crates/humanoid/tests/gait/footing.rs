@@ -1,0 +1,242 @@
+//! Robots from descriptions: soles that are found, legs of five joints, a waist, root links with other axes.
+
+use std::fmt::Write;
+use std::sync::{Arc, LazyLock};
+
+use groebot_humanoid::gait::{Footing, LegSolver, Measures, Route, Side, Walk, Walker, plan_at};
+use groebot_humanoid::{ErrorKind, Result, Watch};
+use groebot_ik::derive::Options;
+use groebot_robot::dynamics::Model;
+use groebot_robot::kinematics::Chain;
+use groebot_robot::model::{Meshes, Robot};
+use groebot_robot::spatial::Pose;
+use nalgebra::{Point2, Vector3};
+
+const NO_LINKS: [Option<&str>; 2] = [None, None];
+
+/// A description with legs of 0.3 m + 0.3 m, 0.1 m to each side of the torso's origin, 0.05 m ahead of it.
+#[derive(Clone, Copy)]
+struct Description {
+    /// Whether the root link has x backward and y to the right.
+    backward: bool,
+    /// Whether a joint about the vertical is between the root and the legs.
+    waist: bool,
+    /// Whether the ankles roll.
+    rolls: bool,
+    /// Whether the feet have boxes.
+    boxes: bool,
+    /// The names of the links of one side begin with these, the left one first.
+    names: [&'static str; 2],
+}
+
+const PLAIN: Description = Description { backward: false, waist: false, rolls: true, boxes: true, names: ["l_", "r_"] };
+
+impl Description {
+    fn urdf(&self) -> String {
+        let mut text = "<robot name=\"small\">\n".to_owned();
+        link(&mut text, "base", 8.0, "");
+        let turn = if self.backward { "3.14159265358979" } else { "0" };
+        joint(&mut text, "mount", ("base", "hips"), ("0 0 0", turn), if self.waist { "0 0 1" } else { "" });
+        link(&mut text, "hips", 1.0, "");
+        for (side, name) in [1.0, -1.0].into_iter().zip(self.names) {
+            let at = |link: &str| format!("{name}{link}");
+            let sole = "<collision><origin xyz=\"0.03 0 -0.04\"/><geometry><box size=\"0.2 0.1 0.02\"/></geometry></collision>";
+            let sole = if self.boxes { sole } else { "" };
+            let mut parts = vec![
+                ("yaw", format!("0.05 {} -0.1", 0.1 * side), "0 0 1"),
+                ("roll", "0 0 0".to_owned(), "1 0 0"),
+                ("pitch", "0 0 0".to_owned(), "0 1 0"),
+                ("knee", "0 0 -0.3".to_owned(), "0 1 0"),
+                ("ankle", "0 0 -0.3".to_owned(), "0 1 0"),
+            ];
+            if self.rolls {
+                parts.push(("foot", "0 0 0".to_owned(), "1 0 0"));
+            }
+            let mut parent = "hips".to_owned();
+            let last = parts.len() - 1;
+            for (place, (part, xyz, axis)) in parts.into_iter().enumerate() {
+                joint(&mut text, &format!("{}_joint", at(part)), (&parent, &at(part)), (&xyz, "0"), axis);
+                link(&mut text, &at(part), 0.6, if place == last { sole } else { "" });
+                parent = at(part);
+            }
+            joint(&mut text, &at("arm_joint"), ("hips", &at("arm")), (&format!("0 {} 0.3", 0.2 * side), "0"), "0 1 0");
+            link(&mut text, &at("arm"), 0.3, "");
+        }
+        text + "</robot>\n"
+    }
+
+    fn robot(&self) -> Robot {
+        Robot::from_urdf(&self.urdf()).unwrap()
+    }
+}
+
+fn link(text: &mut String, name: &str, mass: f64, shapes: &str) {
+    let moment = 0.01 * mass;
+    writeln!(
+        text,
+        "<link name=\"{name}\"><inertial><mass value=\"{mass}\"/><inertia ixx=\"{moment}\" iyy=\"{moment}\" izz=\"{moment}\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/>\
+         </inertial>{shapes}</link>"
+    )
+    .unwrap();
+}
+
+/// A joint about `axis`, fixed without one.
+fn joint(text: &mut String, name: &str, (parent, child): (&str, &str), (xyz, yaw): (&str, &str), axis: &str) {
+    let kind = if axis.is_empty() { "fixed" } else { "revolute" };
+    let moves = format!("<axis xyz=\"{axis}\"/><limit lower=\"-2.4\" upper=\"2.4\" velocity=\"9\" effort=\"99\"/>");
+    let moves = if axis.is_empty() { "" } else { &moves };
+    writeln!(
+        text,
+        "<joint name=\"{name}\" type=\"{kind}\"><parent link=\"{parent}\"/><child link=\"{child}\"/><origin xyz=\"{xyz}\" rpy=\"0 0 {yaw}\"/>{moves}</joint>"
+    )
+    .unwrap();
+}
+
+fn derived(chain: &Chain) -> Result<LegSolver> {
+    Ok(Arc::new(Options::new().derive(chain)?.solver()))
+}
+
+fn footing(robot: &Robot, links: [Option<&str>; 2]) -> Result<Footing> {
+    Footing::find(robot, &Meshes::default(), links, None)
+}
+
+fn walk(walker: &Walker, (x, y, heading): (f64, f64, Option<f64>)) -> Result<Walk> {
+    let defaults = &walker.gaits[0].1;
+    let biped = &walker.biped;
+    let request = |height, ease| {
+        let gait = defaults.clone().eased(ease);
+        let measures = Measures { length: gait.length, half_width: gait.half_width(biped), most_turn: gait.most_turn };
+        let route = Route::towards(&Point2::new(x, y), heading, Side::Left, &measures)?;
+        Ok(gait.from_upright(biped).request(biped, route, height))
+    };
+    plan_at((biped, &walker.legs), None, &defaults.hip_heights, request, &Watch::none())
+}
+
+/// The pose of a link of the description in each row of the walk's trajectory, by its forward kinematics.
+fn poses(robot: &Robot, walker: &Walker, walk: &Walk, link: &str) -> Vec<Pose> {
+    let (model, trajectory) = (Model::new(robot).unwrap(), walk.trajectory(&walker.biped));
+    let (body, base_from_link) = model.link(robot.link(link).unwrap());
+    let value = |row: usize, name: &str| {
+        let column = trajectory.joints.iter().position(|joint| joint.name == name);
+        column.map_or(0.0, |column| trajectory.q[row][column])
+    };
+    let row = |row: usize| {
+        let q: Vec<f64> = model.joints().iter().map(|joint| value(row, &joint.name)).collect();
+        model.place(&trajectory.base[row], &q).unwrap().motion(body) * base_from_link
+    };
+    (0..trajectory.times.len()).map(row).collect()
+}
+
+/// Checks that the description itself, moved by the trajectory, has the bottoms of its soles where the walk says.
+fn feet_are_where_the_walk_says(description: &Description, walker: &Walker, walk: &Walk) {
+    let robot = description.robot();
+    let last = if description.rolls { "foot" } else { "ankle" };
+    for (side, name) in description.names.into_iter().enumerate() {
+        let poses = poses(&robot, walker, walk, &format!("{name}{last}"));
+        for (pose, reference) in poses.iter().zip(&walk.references) {
+            let wanted = reference.world_from_soles[side];
+            // The bottom of the box is 5 cm below the ankle.
+            let off = pose.translation.vector - wanted.translation.vector - Vector3::z() * 0.05;
+            assert!(off.norm() < 1e-6, "{name}: {off:?}");
+            let ahead = (pose.rotation * Vector3::x()).angle(&(wanted.rotation * Vector3::x()));
+            assert!(ahead < 1e-6, "{name}: {ahead}");
+        }
+    }
+}
+
+fn plain() -> &'static Walker {
+    static WALKER: LazyLock<Walker> =
+        LazyLock::new(|| footing(&PLAIN.robot(), NO_LINKS).unwrap().walker(derived).unwrap());
+    &WALKER
+}
+
+#[test]
+fn soles_are_the_ends_of_the_lowest_mirrored_limbs() {
+    for names in [["l_", "r_"], ["left_", "right_"], ["a_", "b_"], ["b_", "a_"]] {
+        let robot = Description { names, ..PLAIN }.robot();
+        let found = footing(&robot, NO_LINKS).unwrap();
+        // Where the names say nothing, the boxes do, which reach further forward.
+        assert_eq!(found.soles(), names.map(|name| format!("{name}foot")), "{names:?}");
+    }
+}
+
+#[test]
+fn exchanged_labels_are_put_right_by_the_shapes() {
+    let robot = PLAIN.robot();
+    let found = footing(&robot, [Some("r_foot"), Some("l_foot")]).unwrap();
+    assert_eq!(found.soles(), ["l_foot", "r_foot"]);
+    assert!(found.notes()[0].contains("`l_foot` is the left sole"), "{:?}", found.notes());
+    let found = footing(&robot, [None, Some("r_foot")]).unwrap();
+    assert_eq!(found.soles(), ["l_foot", "r_foot"]);
+    assert!(found.notes().is_empty());
+}
+
+#[test]
+fn links_that_are_no_soles_are_refused_with_the_options() {
+    let robot = PLAIN.robot();
+    for (links, reason) in [
+        ([Some("l_foot"), Some("l_ankle")], "moves both feet"),
+        ([Some("base"), Some("r_foot")], "there are 0 joints"),
+        ([Some("l_shoe"), Some("r_foot")], "no link `l_shoe`"),
+    ] {
+        let error = footing(&robot, links).unwrap_err();
+        assert!(error.to_string().contains(reason), "{error}");
+    }
+    let one_leg = Robot::from_urdf(&PLAIN.urdf().replace("0.05 -0.1 -0.1", "0.4 -0.3 0.2")).unwrap();
+    let error = footing(&one_leg, NO_LINKS).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::MissingKey);
+    assert!(error.to_string().contains("--left and --right"), "{error}");
+}
+
+#[test]
+fn hips_ahead_of_the_root_walk_and_turn() {
+    let walk = walk(plain(), (0.4, 0.0, Some(0.3))).unwrap();
+    feet_are_where_the_walk_says(&PLAIN, plain(), &walk);
+    let feet = walk.schedule.route.end();
+    assert!((feet[0].middle(&feet[1]).x - 0.4).abs() < 1e-9);
+}
+
+#[test]
+fn a_goal_at_the_start_is_a_plan_of_standing() {
+    let walk = walk(plain(), (0.0, 0.0, None)).unwrap();
+    assert!(
+        walk.schedule.route.steps.is_empty() && walk.references.iter().all(|reference| reference.stands == [true; 2])
+    );
+    feet_are_where_the_walk_says(&PLAIN, plain(), &walk);
+}
+
+#[test]
+fn a_root_with_x_backward_and_a_waist_walks_the_same() {
+    let description = Description { backward: true, waist: true, ..PLAIN };
+    let found = footing(&description.robot(), NO_LINKS).unwrap();
+    assert!(found.notes().iter().any(|note| note.contains("`mount` is between the root and both legs")));
+    let walker = found.walker(derived).unwrap();
+    let walk = walk(&walker, (0.3, 0.0, None)).unwrap();
+    feet_are_where_the_walk_says(&description, &walker, &walk);
+}
+
+#[test]
+fn a_leg_of_five_joints_holds_position_heading_and_pitch() {
+    let description = Description { rolls: false, ..PLAIN };
+    let walker = footing(&description.robot(), NO_LINKS).unwrap().walker(derived).unwrap();
+    let walk = walk(&walker, (0.3, 0.0, Some(0.2))).unwrap();
+    feet_are_where_the_walk_says(&description, &walker, &walk);
+}
+
+#[test]
+fn a_foot_without_a_shape_gets_one_in_walk_and_export() {
+    let robot = Description { boxes: false, ..PLAIN }.robot();
+    let found = footing(&robot, NO_LINKS).unwrap();
+    assert!(found.notes()[0].contains("--outline"), "{:?}", found.notes());
+    let shod = found.shod(&robot).unwrap();
+    let walker = found.walker(derived).unwrap();
+    for (side, name) in ["l_foot", "r_foot"].into_iter().enumerate() {
+        let shapes = &shod.links()[shod.link(name).unwrap()].collisions;
+        let points: Vec<_> = shapes[0].solid.points().iter().map(|point| shapes[0].pose() * point).collect();
+        let lowest = points.iter().map(|point| point.z).fold(f64::INFINITY, f64::min);
+        assert!((lowest + walker.biped.feet[side].ankle_height).abs() < 1e-12);
+        let front = points.iter().map(|point| point.x).fold(f64::NEG_INFINITY, f64::max);
+        let corners = walker.biped.feet[side].corners.iter().map(|corner| corner.x);
+        assert!((front - corners.fold(f64::NEG_INFINITY, f64::max)).abs() < 1e-12);
+    }
+}
