@@ -41,7 +41,12 @@ pub use nalgebra;
 pub use groebot_algebra::real;
 pub use groebot_humanoid::{gait, nav, sim, view};
 pub use groebot_ik::{codegen, reach};
-pub use groebot_robot::control;
+
+/// Control laws: torques of a robot that follows a trajectory, and feedback of a walk.
+pub mod control {
+    pub use groebot_humanoid::stabilizer::{JointTargets, SoleForce, Stabilizer, StabilizerGains, State};
+    pub use groebot_robot::control::*;
+}
 
 // Shared by the command line, the wheel and the fuzz targets; not part of the interface.
 #[doc(hidden)]

@@ -9,7 +9,7 @@ from . import _arms
 from ._arms import ArcEnd, Arcs, Best, BestBatch, Reason, Solutions, Within, WithinBatch
 from ._batch import Batch, PaddedBatch, Status
 from ._errors import BadValueError, GroebotError, NoPathError
-from ._groebot import Arc, PlacedSolver, Robot, Solution, Solver, __version__, derive, navigate
+from ._groebot import Arc, PlacedSolver, Robot, Solution, Solver, Stabilizer, __version__, derive, navigate
 from ._reach import ReachMap, reach_map
 from ._records import Check, Closest, Explanation, Jump, Path, Walk
 from ._view import View, view
@@ -37,6 +37,7 @@ __all__ = [
     "Solution",
     "Solutions",
     "Solver",
+    "Stabilizer",
     "Status",
     "View",
     "Walk",

@@ -16,6 +16,7 @@ __all__ = [
     "Robot",
     "Solution",
     "Solver",
+    "Stabilizer",
     "__version__",
     "_any_within",
     "_any_within_batch",
@@ -395,6 +396,20 @@ def derive(
     progress: _Progress | None = None,
     threads: int | None = None,
 ) -> Solver: ...
+@final
+class Stabilizer:
+    def __new__(cls, robot: str, walk: str, *, stiffness: float | None = None) -> Stabilizer: ...
+    @property
+    def joints(self) -> list[str]: ...
+    def step(
+        self,
+        time: float,
+        q: npt.ArrayLike,
+        orientation: npt.ArrayLike,
+        angular_velocity: npt.ArrayLike,
+        soles: npt.ArrayLike,
+    ) -> tuple[_Floats, _Floats]: ...
+
 def navigate(
     robot: str,
     map: _File | npt.NDArray[np.bool_],

@@ -24,6 +24,7 @@ mod scanned;
 mod sink;
 mod solution;
 mod solver;
+mod stabilizer;
 mod stored;
 mod targets;
 mod work;
@@ -38,6 +39,7 @@ fn _groebot(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<placed::PlacedSolver>()?;
     module.add_class::<solution::Solution>()?;
     module.add_class::<arcs::Arc>()?;
+    module.add_class::<stabilizer::Stabilizer>()?;
     module.add_function(wrap_pyfunction!(derive::derive, module)?)?;
     module.add_function(wrap_pyfunction!(navigate::navigate, module)?)?;
     module.add_function(wrap_pyfunction!(reach::reach, module)?)?;

@@ -139,3 +139,34 @@ def test_a_map_as_an_array_and_no_path_through_it():
     assert (raised.value.enclosure[:, 0] < 1.5).all()
     with pytest.raises(groebot.BadValueError):
         groebot.navigate("nao", room, (2.5,), (0.6, 1.5))
+
+
+def test_a_stabiliser_keeps_a_standing_robot_where_it_is(tmp_path):
+    walk = groebot.navigate("nao", np.zeros((60, 60), bool), (1.5, 1.5), (1.0, 1.5))
+    stabilizer = groebot.Stabilizer("nao", walk.csv)
+    assert stabilizer.joints == walk.joints
+    upright, still, weight = [0, 0, 0, 1], np.zeros(3), 5.30575 * 9.80665
+    soles = np.zeros((2, 6))
+    soles[:, 2] = weight / 2
+    for time in np.arange(0.0, 0.5, 0.005) * walk.times[1]:
+        positions, velocities = stabilizer.step(time, walk.q[0], upright, still, soles)
+        assert np.abs(positions - walk.q[0]).max() < 1e-2 and np.isfinite(velocities).all()
+    # A torso that leans ahead is turned back: both hips bend less.
+    lean = [0, np.sin(0.02), 0, np.cos(0.02)]
+    hips = [stabilizer.joints.index(f"{side}HipPitch") for side in "LR"]
+    for time in np.arange(0.0, 0.5, 0.005):
+        leaning, _ = stabilizer.step(walk.times[1] + time, walk.q[0], lean, still, soles)
+    assert (leaning[hips] > positions[hips]).all()
+
+
+def test_states_that_are_none_are_refused():
+    walk = groebot.navigate("nao", np.zeros((60, 60), bool), (1.5, 1.5), (1.0, 1.5))
+    with pytest.raises(groebot.GroebotError, match="nao, rh0 or teo"):
+        groebot.Stabilizer("asimo", walk.csv)
+    with pytest.raises(groebot.BadValueError, match="stiffness"):
+        groebot.Stabilizer("nao", walk.csv, stiffness=-1)
+    stabilizer = groebot.Stabilizer("nao", walk.csv)
+    good = {"time": 0.0, "q": walk.q[0], "orientation": [0, 0, 0, 1], "angular_velocity": [0, 0, 0], "soles": np.zeros((2, 6))}
+    for name, value in {"q": [1.0], "orientation": [1, 1, 1, 1], "angular_velocity": [np.nan, 0, 0], "soles": np.zeros(6), "time": np.inf}.items():
+        with pytest.raises(groebot.BadValueError):
+            stabilizer.step(**(good | {name: value}))

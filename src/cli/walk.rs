@@ -22,6 +22,9 @@ use groebot_robot::robots;
 /// The greatest length of a file of footsteps in bytes.
 const FOOTSTEPS_LIMIT: u64 = limits::FOOTSTEPS_BYTES;
 
+/// The greatest tilt of a supporting sole \[rad\]: the margins are those of level soles.
+const MOST_TILT: f64 = 0.04;
+
 const EXAMPLES: &str = "Examples:
   groebot walk nao --steps 8 -o walk.csv --plot walk.svg
   groebot walk nao --steps 8 --length 0 --turn 40 -o turn.csv
@@ -202,6 +205,17 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let biped = &walker.biped;
     let walk = arguments.planned(&walker, &session.watch)?;
     drop(session);
+    let summary = Summary::of(biped, &walk);
+    if summary.tilt.value > MOST_TILT {
+        let text = format!(
+            "{}: a supporting sole would tilt by {:.1} deg at {:.2} s, because a leg of five joints does not hold this rotation; at most {:.1} deg are allowed,              because only its edge would touch the floor; move the body less to the sides (--amplitude)",
+            biped.name,
+            summary.tilt.value.to_degrees(),
+            summary.tilt.time,
+            MOST_TILT.to_degrees()
+        );
+        return Err(Error::new(ErrorKind::BadValue, text).into());
+    }
     let forces = arguments.torques.then(|| walk.forces(biped));
     let chains = forces.as_ref().filter(|_| arguments.chains).map(|forces| walk.chains(biped, forces));
     arguments.write(&output, biped, &walk, (forces.as_deref(), chains.as_deref()))?;
@@ -209,7 +223,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         return Ok(());
     }
     console::print_notes(&robot.parts().notes);
-    console::print(&Summary::of(biped, &walk).to_string())?;
+    console::print(&summary.to_string())?;
     let Some(forces) = forces else { return Ok(()) };
     console::print(&torques(biped, &walk, &forces))?;
     chains.map_or(Ok(()), |chains| console::print(&difference(&walk.difference(biped, &forces, &chains))))

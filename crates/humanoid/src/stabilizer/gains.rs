@@ -3,7 +3,7 @@
 /// The gains of a stabiliser. They do not depend on the size of the robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct Gains {
+pub struct StabilizerGains {
     /// The rate at which an error of the DCM decays, as a fraction of the pendulum's rate `w`.
     pub dcm: f64,
     /// The rate at which the integral of the DCM's error acts \[1/s\].
@@ -22,9 +22,9 @@ pub struct Gains {
     pub stiffness: f64,
 }
 
-impl Default for Gains {
+impl Default for StabilizerGains {
     fn default() -> Self {
-        Gains {
+        StabilizerGains {
             dcm: 1.0,
             integral: 0.5,
             ankle: 25.0,

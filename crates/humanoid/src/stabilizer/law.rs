@@ -4,7 +4,7 @@ use nalgebra::{Isometry3, Point2, Translation3, UnitQuaternion, Vector2, Vector3
 
 use super::distribution::{Part, distribute, within};
 use super::estimate::{Estimate, Observer, PRESSED};
-use super::gains::Gains;
+use super::gains::StabilizerGains;
 use super::planned::{Instant, PlannedWalk};
 use super::sag::static_torques;
 use super::state::{JointTargets, State};
@@ -42,7 +42,7 @@ const HEADINGS: usize = 4;
 pub struct Stabilizer {
     walker: Walker,
     walk: PlannedWalk,
-    gains: Gains,
+    gains: StabilizerGains,
     observer: Observer,
     last: Posture,
     before: Option<(f64, Vec<f64>)>,
@@ -71,7 +71,7 @@ impl Stabilizer {
         Ok(Stabilizer {
             walker,
             walk,
-            gains: Gains::default(),
+            gains: StabilizerGains::default(),
             stiffness: None,
             observer: Observer::default(),
             last,
@@ -87,7 +87,7 @@ impl Stabilizer {
 
     /// Sets the gains.
     #[must_use]
-    pub fn gains(mut self, gains: Gains) -> Self {
+    pub fn gains(mut self, gains: StabilizerGains) -> Self {
         self.gains = gains;
         self
     }

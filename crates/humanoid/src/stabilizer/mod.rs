@@ -18,6 +18,6 @@ mod sag;
 mod state;
 mod steps;
 
-pub use gains::Gains;
+pub use gains::StabilizerGains;
 pub use law::Stabilizer;
 pub use state::{JointTargets, SoleForce, State};
