@@ -4,12 +4,13 @@ use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use groebot::Watch;
+use groebot::control::{SoleForce, Stabilizer, State};
 use groebot::gait::{Biped, Footprint, GaitDefaults, Regular, Request, Route, Side, Walker, plan};
 use groebot::model::Meshes;
 use groebot::nav::Room;
-use groebot::robots::{NAO_PREVIEW, NAO_SINE, Outline, nao_walker, rh0, rh0_walker};
+use groebot::robots::{NAO_PREVIEW, NAO_SINE, Outline, nao_walker, rh0, rh0_walker, walker};
 use groebot::task::{Body, Floor, Goal, Pilot, Plan};
-use nalgebra::Point2;
+use nalgebra::{Point2, Vector3};
 
 fn request(defaults: &GaitDefaults, robot: &Biped, length: f64, turn: f64) -> Request {
     let regular = Regular { steps: 8, length, aside: 0.0, turn, half_width: robot.half_width(), first: Side::Left };
@@ -27,6 +28,37 @@ fn walk(c: &mut Criterion) {
     ];
     for (name, request) in cases {
         group.bench_function(name, |b| b.iter(|| plan(&robot, &legs, black_box(&request), &Watch::none())));
+    }
+    group.finish();
+}
+
+/// One step of the stabiliser, for a robot that stands on both feet as planned.
+fn stabilizer(c: &mut Criterion) {
+    let mut group = c.benchmark_group("stabilizer");
+    for name in ["nao", "rh0", "teo"] {
+        let walker = walker(name, Outline::Measured).expect("a robot of the crate").expect("the crate's own data");
+        let (biped, defaults) = (&walker.biped, &walker.gaits[0].1);
+        let half_width = biped.half_width();
+        let regular = Regular { steps: 2, length: 0.04, aside: 0.0, turn: 0.0, half_width, first: Side::Left };
+        let route = Route::regular(&regular).expect("two steps");
+        let height =
+            |height: &f64| plan(biped, &walker.legs, &defaults.request(biped, route.clone(), *height), None).ok();
+        let walk = defaults.hip_heights.iter().find_map(height).expect("a walk").trajectory(biped);
+        let force = SoleForce { force: Vector3::new(0.0, 0.0, 4.9 * biped.model.mass()), moment: Vector3::zeros() };
+        let mut state = State {
+            time: 0.0,
+            q: walk.q[0].clone(),
+            orientation: walk.base[0].rotation,
+            angular_velocity: Vector3::zeros(),
+            soles: [force; 2],
+        };
+        let mut stabilizer = Stabilizer::new(walker.clone(), &walk).expect("its walk").stiffness(1e3);
+        group.bench_function(format!("{name}_step"), |b| {
+            b.iter(|| {
+                state.time += 1e-7;
+                stabilizer.step(black_box(&state))
+            });
+        });
     }
     group.finish();
 }
@@ -59,5 +91,5 @@ fn navigate(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, walk, navigate);
+criterion_group!(benches, walk, navigate, stabilizer);
 criterion_main!(benches);

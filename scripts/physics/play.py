@@ -192,6 +192,7 @@ class Feedback:
         self.robot, self.period, self.latency = robot, given.feedback, given.latency
         self.next, self.late, self.random, self.noise = 0.0, [], numpy.random.default_rng(0), given.noise
         self.sums, self.count = numpy.zeros((2, 6)), 0
+        self.sides = {geom: side for side in (0, 1) for geom in robot.shapes[side]}
         nominal = robot.stiffness / (given.gain * given.mass)
         print(json.dumps({"joints": robot.names, "stiffness": nominal}), flush=True)
 
@@ -233,21 +234,23 @@ class Feedback:
 
     def forces(self):
         """Force and moment on each sole, in its frame."""
-        robot, model, data = self.robot, self.robot.model, self.robot.data
-        frames = [robot.frame(side) for side in (0, 1)]
-        sums, wrench = numpy.zeros((2, 6)), numpy.zeros(6)
-        for index in range(data.ncon):
-            contact = data.contact[index]
-            for sign, geom in ((-1.0, contact.geom1), (1.0, contact.geom2)):
-                for side in (0, 1):
-                    if geom in robot.shapes[side]:
-                        mujoco.mj_contactForce(model, data, index, wrench)
-                        # The rows of the frame are the axes of the contact; the force is that on the second shape.
-                        force = sign * (contact.frame.reshape(3, 3).T @ wrench[:3])
-                        origin, axes = frames[side]
-                        sums[side, :3] += axes.T @ force
-                        sums[side, 3:] += axes.T @ numpy.cross(contact.pos - origin, force)
-        return sums
+        model, data = self.robot.model, self.robot.data
+        forces, moments, wrench = numpy.zeros((2, 3)), numpy.zeros((2, 3)), numpy.zeros(6)
+        contacts = data.contact
+        for index, (one, other) in enumerate(contacts.geom.tolist()):
+            # The force is that on the second shape; the rows of the frame are the axes of the contact.
+            sign, side = (1.0, self.sides.get(other)) if other in self.sides else (-1.0, self.sides.get(one))
+            if side is not None:
+                mujoco.mj_contactForce(model, data, index, wrench)
+                force = sign * (wrench[:3] @ contacts.frame[index].reshape(3, 3))
+                (x, y, z), (u, v, w) = contacts.pos[index].tolist(), force.tolist()
+                forces[side] += force
+                moments[side] += y * w - z * v, z * u - x * w, x * v - y * u
+        sums = []
+        for side in (0, 1):
+            origin, axes = self.robot.frame(side)
+            sums.append([*(forces[side] @ axes), *((moments[side] - numpy.cross(origin, forces[side])) @ axes)])
+        return numpy.array(sums)
 
 
 class Table:

@@ -58,8 +58,9 @@ impl Feedback {
 
     /// Reads the simulation's joints and the stiffness of their motors.
     pub fn start(&mut self, line: &str) -> Result<()> {
-        let motors: Motors = serde_json::from_str(line)
-            .map_err(|error| Error::new(ErrorKind::Syntax, format!("the motors of the simulation: {error}")))?;
+        let motors: Motors = serde_json::from_str(line).map_err(|error| {
+            Error::new(ErrorKind::Syntax, format!("the output of the simulation is not understood: {error}"))
+        })?;
         self.stabilizer = self.stabilizer.clone().stiffness(motors.stiffness);
         self.joints = motors.joints.iter().map(|name| self.walker.biped.joint(name).ok()).collect();
         Ok(())

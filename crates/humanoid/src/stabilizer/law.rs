@@ -64,7 +64,8 @@ impl Stabilizer {
     /// A stabiliser of `walk`, which was planned for `walker`.
     ///
     /// # Errors
-    /// [`ErrorKind::MissingKey`] for a trajectory that is not a walk with its ZMP; [`ErrorKind::UnknownName`] for joints that the walker does not have.
+    /// [`ErrorKind::MissingKey`] for a trajectory that is not a walk with its ZMP; [`ErrorKind::UnknownName`] for joints that the walker does not have;
+    /// [`ErrorKind::BadValue`] when the centre of mass is not above the soles.
     pub fn new(walker: Walker, walk: &Trajectory) -> Result<Self> {
         let walk = PlannedWalk::new(&walker, walk)?;
         let last = walk.at(0.0).posture;
@@ -102,15 +103,14 @@ impl Stabilizer {
     /// The joint targets at a state. The states of a walk are given in the order of time, for example at 200 Hz.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for a state with the wrong number of joint values, or with values that are not finite, and for a time before that of the last
-    /// state.
+    /// [`ErrorKind::BadValue`] for a state with the wrong number of joint values, or with values that are not finite, for a time before that of the last
+    /// state, and when a corrected sole is out of reach.
     pub fn step(&mut self, state: &State) -> Result<JointTargets> {
         self.check(state)?;
         let mut plan = self.walk.at(state.time);
         let dt = self.before.as_ref().map_or(0.0, |(time, _)| (state.time - time).min(MOST_STEP));
         self.steps.displace(&self.walk, state.time, dt, &mut plan);
-        let floor = 0.5 * (plan.soles[0].translation.z + plan.soles[1].translation.z).min(0.0);
-        let rate = (GRAVITY / (plan.centre.z - floor)).sqrt();
+        let rate = (GRAVITY / plan.height()).sqrt();
         let seen = self.observer.estimate(&self.walker.biped, &plan, state, (dt, rate, self.gains.observer))?;
         let parts = self.balance(&plan, &seen, rate, (state.time, dt));
         self.turn_soles(&plan, &seen, &parts, dt);
@@ -179,7 +179,7 @@ impl Stabilizer {
     fn turn_soles(&mut self, plan: &Instant, seen: &Estimate, parts: &[Part; 2], dt: f64) {
         let biped = &self.walker.biped;
         let weight = biped.model.mass() * GRAVITY;
-        let gain = self.gains.ankle / (self.gains.stiffness * weight * plan.centre.z);
+        let gain = self.gains.ankle / (self.gains.stiffness * weight * plan.height());
         for side in [0, 1] {
             let tilt = &mut self.tilts[side];
             if plan.stands[side] && seen.pressed[side] > PRESSED * weight {
@@ -199,7 +199,7 @@ impl Stabilizer {
         let error = (is * should.inverse()).scaled_axis();
         self.lean -= dt * self.gains.torso * error.xy();
         self.lean = self.lean.map(|angle| angle.clamp(-MOST_LEAN, MOST_LEAN));
-        let most = MOST_SWAY * plan.centre.z;
+        let most = MOST_SWAY * plan.height();
         self.sway -= dt * self.gains.sway * (seen.centre.xy() - plan.centre.xy());
         self.sway = self.sway.map(|sway| sway.clamp(-most, most));
     }
@@ -209,7 +209,7 @@ impl Stabilizer {
         let weight = self.walker.biped.model.mass() * GRAVITY;
         let share = |side: usize| seen.pressed[side] / weight;
         let excess = (share(0) - share(1)) - (parts[0].share - parts[1].share);
-        let yielding = self.walker.biped.half_width().powi(2) / (self.gains.stiffness * plan.centre.z);
+        let yielding = self.walker.biped.half_width().powi(2) / (self.gains.stiffness * plan.height());
         self.height += dt * (self.gains.height * yielding * excess - self.height / FADE);
     }
 
@@ -232,8 +232,8 @@ impl Stabilizer {
             let torso = Translation3::new(0.0, 0.0, -lower) * torso;
             match self.stand(&soles, &torso, &last) {
                 Ok(posture) => return Ok((posture, soles)),
-                Err(error) if lower > LOWEST * plan.centre.z => return Err(error),
-                Err(_) => lower = 2.0 * lower + LOWER * plan.centre.z,
+                Err(error) if lower > LOWEST * plan.height() => return Err(error),
+                Err(_) => lower = 2.0 * lower + LOWER * plan.height(),
             }
         }
     }

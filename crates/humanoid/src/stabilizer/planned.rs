@@ -25,7 +25,14 @@ pub(super) struct Instant {
     pub zmp: Point2<f64>,
 }
 
-/// A planned walk.
+impl Instant {
+    /// The height of the centre of mass above the lower sole \[m\].
+    pub fn height(&self) -> f64 {
+        self.centre.z - self.soles[0].translation.z.min(self.soles[1].translation.z)
+    }
+}
+
+/// A planned walk. Its times start at zero.
 #[derive(Clone, Debug)]
 pub(super) struct PlannedWalk {
     times: Vec<f64>,
@@ -61,11 +68,18 @@ impl PlannedWalk {
             })
         };
         let mut rows = (0..walk.times.len()).map(row).collect::<Result<Vec<Instant>>>()?;
+        if let Some(row) = rows.iter().position(|row| row.height().is_nan() || row.height() <= 0.0) {
+            let text = format!(
+                "the centre of mass is not above the soles at {} s; is this a walk of {}?",
+                walk.times[row], walker.biped.name
+            );
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
         for at in 1..rows.len().saturating_sub(1) {
             let time = walk.times[at + 1] - walk.times[at - 1];
             rows[at].velocity = (rows[at + 1].centre - rows[at - 1].centre) / time;
         }
-        Ok(PlannedWalk { times: walk.times.clone(), rows })
+        Ok(PlannedWalk { times: walk.times.iter().map(|time| time - walk.times[0]).collect(), rows })
     }
 
     /// The walk at a time, by linear interpolation; before its start and after its end it stands.

@@ -74,10 +74,10 @@ impl Steps {
         (rate, remaining): (f64, f64),
     ) {
         let Some((side, _)) = self.swing else { return };
-        let most = MOST * plan.centre.z;
+        let most = MOST * plan.height();
         let grown = held + (error - held) * (rate * remaining).exp();
         let moved = grown * (most / grown.norm().max(most));
-        if moved.norm() < LEAST * plan.centre.z {
+        if moved.norm() < LEAST * plan.height() {
             return;
         }
         // In the frame of the standing foot, the swinging one stays on its side.
