@@ -4,7 +4,6 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use serde::Deserialize;
 
-use super::physics::listed;
 use crate::{Error, ErrorKind, Result};
 use groebot_humanoid::gait::{Biped, Walker};
 use groebot_humanoid::stabilizer::{SoleForce, Stabilizer, State};
@@ -97,4 +96,9 @@ impl Feedback {
         };
         Ok([of(&targets.positions), of(&targets.velocities)].concat().join(" ") + "\n")
     }
+}
+
+/// Numbers as an argument of the script.
+pub fn listed(numbers: &[f64]) -> String {
+    numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(",")
 }

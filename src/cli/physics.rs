@@ -11,7 +11,7 @@ use std::time::Duration;
 use serde::{Deserialize, Serialize};
 use tempfile::TempDir;
 
-use super::feedback::Feedback;
+use super::feedback::{Feedback, listed};
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::document::read_text;
 use groebot_robot::motion::Trajectory;
@@ -231,10 +231,6 @@ impl Case {
         arguments.extend(push);
         arguments
     }
-}
-
-pub fn listed(numbers: &[f64]) -> String {
-    numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(",")
 }
 
 /// The absolute path, where the file exists.

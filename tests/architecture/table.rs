@@ -7,7 +7,7 @@ const ROOT: [&str; 7] = ["error", "escape", "limits", "random", "watch", "files"
 const DOCUMENT: &str = "document";
 
 /// Each other module with the modules that it may use, which are above it in the table.
-const TABLE: [(&str, Uses); 28] = [
+const TABLE: [(&str, Uses); 29] = [
     ("drawing", Uses::Only(&[])),
     ("number", Uses::Only(&[])),
     (DOCUMENT, Uses::Only(&["number"])),
@@ -30,11 +30,12 @@ const TABLE: [(&str, Uses); 28] = [
     ),
     ("codegen", Uses::Only(&["number", "kinematics", "dynamics", "solver"])),
     ("motion", Uses::Only(&["spatial", "model", "kinematics"])),
-    ("gait", Uses::Only(&["drawing", "spatial", "model", "kinematics", "dynamics", "motion"])),
+    ("gait", Uses::Only(&["number", "drawing", "spatial", "model", "kinematics", "dynamics", "motion"])),
     ("walkers", Uses::Only(&["spatial", "model", "kinematics", "robots", "gait"])),
     ("nav", Uses::Only(&["spatial"])),
     ("task", Uses::Only(&["drawing", "spatial", "model", "dynamics", "motion", "gait", "nav"])),
     ("sim", Uses::AllAbove),
+    ("stabilizer", Uses::Only(&["spatial", "motion", "gait", "sim"])),
     (
         "view",
         Uses::Only(&[

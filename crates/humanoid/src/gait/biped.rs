@@ -4,8 +4,8 @@ use nalgebra::{Point2, Point3};
 
 use super::contact::{Outline, touching};
 use super::footprint::{Footprint, Side};
+use super::limbs::sagittal;
 use super::polygon::Polygon;
-use super::walker::sagittal;
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::dynamics::{Clearance, Model};
 use groebot_robot::model::{Meshes, Robot};

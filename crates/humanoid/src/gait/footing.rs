@@ -200,7 +200,7 @@ impl Contact {
             return outline;
         }
         let joints = turned.model.path(turned.model.link(self.link).0);
-        let outline = contact::assumed(super::walker::leg_length(&turned.model, &joints), &self.ankle);
+        let outline = contact::assumed(limbs::leg_length(&turned.model, &joints), &self.ankle);
         let (low, high) = contact::bounds(&outline.1);
         let reason = self.reason.map(|error| format!(" ({error})")).unwrap_or_default();
         notes.push(format!(
@@ -222,7 +222,7 @@ impl Contact {
 fn is_exchanged(names: Option<bool>, shapes: Option<bool>, notes: &mut Vec<String>) -> bool {
     match (names, shapes) {
         (Some(true), Some(false)) => {
-            let text = "the soles extend further back than forward of the ankles; if the robot faces the other way, exchange --left and --right";
+            let text = "the soles extend further back than forward of the ankles; if the robot faces backward, exchange --left and --right";
             notes.push(text.to_owned());
             false
         }

@@ -9,6 +9,9 @@ use groebot_robot::model::Robot;
 
 /// The least number of joints of a leg.
 pub(super) const LEAST_JOINTS: usize = 3;
+/// The least cosine of the angle between the lateral direction and an axis that swings a leg forward. NAO's axis for
+/// yaw and pitch is at 45 degrees.
+const ACROSS: f64 = 0.8;
 /// The greatest deviation of two legs from a mirror image, as a fraction of their size.
 const MIRRORED: f64 = 0.05;
 
@@ -139,4 +142,28 @@ fn unknown(robot: &Robot) -> Error {
         ends.join(", ")
     );
     Error::new(ErrorKind::MissingKey, text)
+}
+
+/// The joints of a leg that swing it forward, at the hip, the knee and the ankle: the first two and the last one whose
+/// axes point to the left, as indices into a configuration. Without three of these, the third, the fourth and the last
+/// joint.
+pub(super) fn sagittal(model: &Model, joints: &[usize]) -> [usize; 3] {
+    let to_the_left =
+        |joint: &&usize| model.joints()[**joint].screw.axis().is_some_and(|axis| axis.direction().y.abs() > ACROSS);
+    let across: Vec<usize> = joints.iter().filter(to_the_left).copied().collect();
+    match across[..] {
+        [hip, knee, .., ankle] => [hip, knee, ankle],
+        _ => [2, 3, joints.len()].map(|place| joints[place.min(joints.len() - 1)]),
+    }
+}
+
+/// The length of the stretched leg with these joints, seen from the side: from the hip through the knee to the ankle
+/// \[m\].
+pub(super) fn leg_length(model: &Model, joints: &[usize]) -> f64 {
+    let at = |joint: usize| model.joints()[joint].screw.axis().map(|axis| axis.point().xz());
+    let [hip, knee, ankle] = sagittal(model, joints).map(at);
+    match (hip, knee, ankle) {
+        (Some(hip), Some(knee), Some(ankle)) => (knee - hip).norm() + (ankle - knee).norm(),
+        _ => 0.0,
+    }
 }

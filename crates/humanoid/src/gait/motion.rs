@@ -130,7 +130,11 @@ impl TorsoSearch {
         known: &Vector3<f64>,
     ) -> Result<Point3<f64>> {
         let origin = Vector3::new(reference.centre.x, reference.centre.y, reference.heading) + known;
-        let mut torso = origin + self.guess(legs, reference.heading, known);
+        let mut torso = origin + self.guess();
+        if self.leads.is_empty() && *known == Vector3::zeros() && self.stand(legs, reference, &torso).is_err() {
+            // The legs do not reach with the torso's origin above the centre of mass.
+            torso += (Rotation2::new(reference.heading) * legs.lead()).push(0.0);
+        }
         let mut before: Option<(Vector3<f64>, Vector3<f64>)> = None;
         for _ in 0..MOST_CORRECTIONS {
             let mut posture = self.stand(legs, reference, &torso)?;
@@ -184,13 +188,9 @@ impl TorsoSearch {
         Ok(Matrix3::from_diagonal(&diagonal))
     }
 
-    /// Extrapolates the torso's offset by the polynomial through the last samples. Without samples it is that of the
-    /// legs' crouch.
-    fn guess(&self, legs: &Legs, heading: f64, known: &Vector3<f64>) -> Vector3<f64> {
+    /// Extrapolates the torso's offset by the polynomial through the last samples.
+    fn guess(&self) -> Vector3<f64> {
         let count = self.leads.len();
-        if count == 0 && *known == Vector3::zeros() {
-            return (Rotation2::new(heading) * legs.lead()).push(0.0);
-        }
         let mut factor = -1.0;
         let term = |(place, lead): (usize, &Vector3<f64>)| {
             // Binomial coefficients with alternating signs, starting with `count`.

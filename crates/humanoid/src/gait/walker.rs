@@ -8,13 +8,13 @@ use super::biped::{Biped, Foot};
 use super::defaults::GaitDefaults;
 use super::footprint::Side;
 use super::legs::{LegSolver, Legs};
+use super::limbs::{leg_length, sagittal};
 use super::one_step::{Laws, OneStep};
 use super::plan::TICK;
 use super::polygon::Polygon;
 use super::request::Gait;
 use super::zmp::GRAVITY;
 use crate::{Error, ErrorKind, Result};
-use groebot_robot::dynamics::Model;
 use groebot_robot::kinematics::Target;
 use groebot_robot::model::Robot;
 
@@ -36,9 +36,6 @@ const HEIGHTS: [f64; 8] = [0.965, 0.955, 0.94, 0.925, 0.91, 0.89, 0.87, 0.84];
 const UPRIGHT: f64 = 0.985;
 /// The least distance of a joint that does not walk from its limits \[rad or m\].
 const ASIDE: f64 = 1e-3;
-/// The least cosine of the angle between the lateral direction and an axis that swings a leg forward. NAO's axis for
-/// yaw and pitch is at 45 degrees.
-const ACROSS: f64 = 0.8;
 /// The duration of a step in units of sqrt(leg length / gravity), a pendulum's unit of time.
 const PERIOD: f64 = 19.0;
 
@@ -108,30 +105,6 @@ fn crouched(biped: &Biped, foot: &Foot, solver: &LegSolver) -> Result<Vec<f64>> 
     }
     let text = format!("{}: no posture within the limits of a leg brings its sole below the hip", biped.name);
     Err(Error::new(ErrorKind::BadValue, text))
-}
-
-/// The joints of a leg that swing it forward, at the hip, the knee and the ankle: the first two and the last one whose
-/// axes point to the left, as indices into a configuration. Without three of these, the third, the fourth and the last
-/// joint.
-pub(super) fn sagittal(model: &Model, joints: &[usize]) -> [usize; 3] {
-    let to_the_left =
-        |joint: &&usize| model.joints()[**joint].screw.axis().is_some_and(|axis| axis.direction().y.abs() > ACROSS);
-    let across: Vec<usize> = joints.iter().filter(to_the_left).copied().collect();
-    match across[..] {
-        [hip, knee, .., ankle] => [hip, knee, ankle],
-        _ => [2, 3, joints.len()].map(|place| joints[place.min(joints.len() - 1)]),
-    }
-}
-
-/// The length of the stretched leg with these joints, seen from the side: from the hip through the knee to the ankle
-/// \[m\].
-pub(super) fn leg_length(model: &Model, joints: &[usize]) -> f64 {
-    let at = |joint: usize| model.joints()[joint].screw.axis().map(|axis| axis.point().xz());
-    let [hip, knee, ankle] = sagittal(model, joints).map(at);
-    match (hip, knee, ankle) {
-        (Some(hip), Some(knee), Some(ankle)) => (knee - hip).norm() + (ankle - knee).norm(),
-        _ => 0.0,
-    }
 }
 
 /// The length of the left leg, and the height of the end of this length above the sole \[m\].

@@ -16,7 +16,7 @@ pub(super) struct Part {
     pub pressure: Point2<f64>,
 }
 
-/// The point on the way from `inside` to `wanted` that is farthest and at least `margin` inside the polygon.
+/// The point between `inside` and `wanted` that is nearest to `wanted` and at least `margin` inside the polygon.
 pub(super) fn within(polygon: &Polygon, inside: &Point2<f64>, wanted: &Point2<f64>, margin: f64) -> Point2<f64> {
     if polygon.signed_distance(wanted) >= margin {
         return *wanted;

@@ -7,7 +7,7 @@ use crate::Result;
 use crate::gait::{Biped, GRAVITY, Posture};
 use groebot_robot::spatial::{Pose, Screw};
 
-/// The torque of each joint with which the robot stands still in a posture \[N m; N of a prismatic joint\]. The soles at `soles` carry its weight as distributed.
+/// The torque of each joint with which the robot is at rest in a posture \[N m; N of a prismatic joint\]. The soles at `soles` carry its weight as distributed.
 pub(super) fn static_torques(
     biped: &Biped,
     posture: &Posture,

@@ -1,5 +1,6 @@
 //! Robots that differ from a given one in a few parts: held joints, another root frame, another contact shape.
 
+use super::robot::hold;
 use super::{Joint, JointType, Link, Robot, Shape, Solid};
 use crate::spatial::exact::Placement;
 use crate::spatial::{Pose, rotation};
@@ -87,14 +88,4 @@ impl Robot {
         let fixed = self.ancestry(link).into_iter().take_while(|joint| !moves(joint));
         fixed.last().map_or(link, |joint| self.ends(joint).0)
     }
-}
-
-/// Makes `fixed` the joint `joint`, fixed at the constant `value` \[rad or m\].
-pub(super) fn hold(joint: &Joint, fixed: &mut Joint, value: &BigRational) {
-    let held = match joint.kind {
-        JointType::Prismatic => Placement::shifted_along(&joint.axis, value),
-        _ => Placement::turned_about(&joint.axis, value),
-    };
-    fixed.origin = joint.origin.placement.then(&held).into();
-    (fixed.kind, fixed.limits, fixed.mimic) = (JointType::Fixed, None, None);
 }

@@ -2,11 +2,11 @@
 
 use num_traits::{One, Zero};
 
-use super::changed::hold;
 use super::check;
 use super::{Actuator, Fault, Joint, JointType, Link, Mimic, Part, RobotParts};
 use crate::document::shown;
 use crate::spatial::NEGLIGIBLE;
+use crate::spatial::exact::Placement;
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::BigRational;
 
@@ -321,4 +321,14 @@ impl Robot {
         };
         self.links().iter().flat_map(of).collect()
     }
+}
+
+/// Makes `fixed` the joint `joint`, fixed at the constant `value` \[rad or m\].
+pub(super) fn hold(joint: &Joint, fixed: &mut Joint, value: &BigRational) {
+    let held = match joint.kind {
+        JointType::Prismatic => Placement::shifted_along(&joint.axis, value),
+        _ => Placement::turned_about(&joint.axis, value),
+    };
+    fixed.origin = joint.origin.placement.then(&held).into();
+    (fixed.kind, fixed.limits, fixed.mimic) = (JointType::Fixed, None, None);
 }
