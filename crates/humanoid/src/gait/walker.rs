@@ -31,7 +31,7 @@ pub struct Walker {
 }
 
 /// Heights of the hip that are tried in order, as fractions of the leg's length above the ankle.
-const HEIGHTS: [f64; 8] = [0.965, 0.955, 0.94, 0.925, 0.91, 0.89, 0.87, 0.84];
+const HEIGHTS: [f64; 9] = [0.965, 0.96, 0.955, 0.94, 0.925, 0.91, 0.89, 0.87, 0.84];
 /// The height of the hip before the trunk is lowered, as such a fraction.
 const UPRIGHT: f64 = 0.985;
 /// The least distance of a joint that does not walk from its limits \[rad or m\].
