@@ -44,7 +44,11 @@ fn planned(walker: &Walker, walk: &Trajectory, row: usize, carry: [f64; 2]) -> S
     let force = |side: usize| {
         let world_from_sole = base * soles(walker, &q)[side];
         let below = world_from_sole.inverse() * Point3::new(zmp.x, zmp.y, 0.0);
-        let middle = if carry[0] == carry[1] { Point3::new(below.x, 0.0, 0.0) } else { below };
+        // On both feet the weight is at the middles of the soles.
+        let ends = biped.feet[side].corners.iter().map(|corner| corner.y);
+        let low_and_high = ends.fold((f64::MAX, f64::MIN), |(low, high), y| (low.min(y), high.max(y)));
+        let aside = (low_and_high.0 + low_and_high.1) / 2.0;
+        let middle = if carry[0] == carry[1] { Point3::new(below.x, aside, 0.0) } else { below };
         let force = Vector3::new(0.0, 0.0, carry[side] * weight);
         SoleForce { force, moment: middle.coords.cross(&force) }
     };
