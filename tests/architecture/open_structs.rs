@@ -6,7 +6,8 @@ use super::lexer::Token;
 use super::{Source, root, sources};
 
 /// The structs that callers build by literal, with the reason: module of the definition and name.
-const OPEN: [(&str, &[&str]); 9] = [
+const OPEN: [(&str, &[&str]); 10] = [
+    ("a measurement, which callers fill in", &["stabilizer::state::SoleForce", "stabilizer::state::State"]),
     (
         "a mathematical value, complete as it is",
         &[
