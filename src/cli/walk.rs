@@ -208,7 +208,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let summary = Summary::of(biped, &walk);
     if summary.tilt.value > MOST_TILT {
         let text = format!(
-            "{}: a supporting sole would tilt by {:.1} deg at {:.2} s, because a leg of five joints does not hold this rotation; at most {:.1} deg are allowed,              because only its edge would touch the floor; move the body less to the sides (--amplitude)",
+            "{}: a supporting sole would tilt by {:.1} deg at {:.2} s, because a leg of five joints does not hold this rotation; at most {:.1} deg are allowed, \
+             because only its edge would touch the floor; move the body less to the sides (--amplitude)",
             biped.name,
             summary.tilt.value.to_degrees(),
             summary.tilt.time,
