@@ -11,10 +11,11 @@ use super::floor::{self, FloorArguments, PlaceArguments};
 use super::json::FORMAT;
 use super::output::{Force, Kind, Output};
 use super::progress::{Limits, Session};
+use super::verify::Verification;
 use super::walker::{self, GaitName, Named, SoleArguments};
 use super::{Halt, Outcome, console};
 use crate::{Error, ErrorKind, Result, Watch};
-use groebot_humanoid::gait::{Footstep, GaitDefaults, Summary};
+use groebot_humanoid::gait::{Footstep, GaitDefaults, Summary, Walk, Walker};
 use groebot_humanoid::task::{Blocked, Body, Floor, Method, Pilot, Plan, Refusal};
 use groebot_humanoid::walkers::Outline;
 
@@ -77,6 +78,8 @@ pub struct Arguments {
     #[arg(long)]
     quiet: bool,
     #[command(flatten)]
+    verification: Verification,
+    #[command(flatten)]
     force: Force,
 }
 
@@ -92,20 +95,33 @@ pub(super) enum MethodName {
     Potential,
 }
 
+/// A plan, or the proof that there is no path.
+type Found = std::result::Result<Plan, Blocked>;
+
+/// A pilot, what it found, and the time in which it did \[ms\].
+type Navigated = (Pilot, Found, f64);
+
+fn walk_of((_, found, _): &Navigated) -> Option<&Walk> {
+    found.as_ref().ok().map(|plan| &plan.walk)
+}
+
 /// Plans the walk and writes the requested files.
 pub fn run(arguments: &Arguments) -> Outcome {
     let output = arguments.output()?;
     let session = Session::start(Limits { quiet: arguments.quiet, ..Limits::default() })?;
     let named = walker::named(&arguments.robot, Outline::Measured, &arguments.soles, &session.watch)?;
-    let notes = named.robot.parts().notes.clone();
     let (map, default_start) = arguments.floor.map(&arguments.map)?;
-    let pilot = arguments.pilot(named, &session.watch)?;
     let floor = Floor::new(&map, arguments.places.apart)?;
     let (start, goal) = (arguments.places.start(default_start)?, arguments.places.goal()?);
-    let begun = Instant::now();
-    let feet = start.feet(pilot.half_width());
-    let found = Plan::find(&pilot, &floor, feet, goal.by(arguments.method.method()), &session.watch)?;
-    let milliseconds = 1e3 * begun.elapsed().as_secs_f64();
+    let plan = |walker: &Walker| -> Result<Navigated> {
+        let pilot = arguments.pilot(&named, walker, &session.watch)?;
+        let begun = Instant::now();
+        let feet = start.feet(pilot.half_width());
+        let found = Plan::find(&pilot, &floor, feet, goal.by(arguments.method.method()), &session.watch)?;
+        Ok((pilot, found, 1e3 * begun.elapsed().as_secs_f64()))
+    };
+    let verified = arguments.verification.planned(&named, &session.watch, plan, walk_of)?;
+    let (pilot, found, milliseconds) = verified.plan;
     drop(session);
     match &found {
         Ok(plan) => arguments.write(&output, &pilot, &floor, plan)?,
@@ -115,6 +131,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
             }
         }
     }
+    let notes = [named.robot.parts().notes.clone(), verified.notes].concat();
     if arguments.json {
         let mut json_report = arguments.json_report(&pilot, &found, milliseconds);
         json_report["notes"] = notes.into();
@@ -136,14 +153,14 @@ pub fn run(arguments: &Arguments) -> Outcome {
 }
 
 impl Arguments {
-    fn pilot(&self, named: Named, watch: &Watch) -> Result<Pilot> {
+    fn pilot(&self, named: &Named, walker: &Walker, watch: &Watch) -> Result<Pilot> {
         let body = match self.body.as_deref() {
             Some(&[length, width]) => Body::of_size(length, width)?,
             Some(_) => return Err(bad("--body takes two numbers: --body 0.3,0.5")),
-            None => Body::new(&named.robot, &named.walker.biped, &named.meshes)?,
+            None => Body::new(&named.robot, &walker.biped, &named.meshes)?,
         };
-        let defaults = steps(&named.walker.gaits, self.gait)?;
-        Pilot::new(named.walker, defaults, body, !self.crouched, watch)
+        let defaults = steps(&walker.gaits, self.gait)?;
+        Pilot::new(walker.clone(), defaults, body, !self.crouched, watch)
     }
 
     /// The output; it replaces neither the robot nor the map.
@@ -164,7 +181,7 @@ impl Arguments {
         }
     }
 
-    fn json_report(&self, pilot: &Pilot, found: &std::result::Result<Plan, Blocked>, milliseconds: f64) -> Value {
+    fn json_report(&self, pilot: &Pilot, found: &Found, milliseconds: f64) -> Value {
         let method = self.method.to_possible_value().map(|value| value.get_name().to_owned());
         let biped = &pilot.walker().biped;
         let mut json_report =

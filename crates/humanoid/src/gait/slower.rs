@@ -83,6 +83,6 @@ fn factor(biped: &Biped, request: &Request, balances: &[Balance], found: &Found)
             }
             1.0 / low.sqrt()
         }
-        Fault::Static { .. } | Fault::Limit { .. } | Fault::Feet { .. } => f64::INFINITY,
+        Fault::Static { .. } | Fault::Limit { .. } | Fault::Feet { .. } | Fault::Tilt { .. } => f64::INFINITY,
     }
 }
