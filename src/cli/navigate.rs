@@ -232,7 +232,7 @@ fn steps(gaits: &[(&'static str, GaitDefaults)], wanted: Option<GaitName>) -> Re
     };
     let defaults = defaults.filter(|defaults| defaults.gait.is_one_step());
     defaults.ok_or_else(|| {
-        bad("a path needs a gait by one step goal; give --gait osg, rh0 or rh0-real, if this robot has it")
+        bad("a path needs a gait by one step goal; give --gait osg, rh0, rh0-sim or rh0-real, if this robot has it")
     })
 }
 

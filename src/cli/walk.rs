@@ -38,8 +38,8 @@ radians; it starts at the origin.
 A phase that would be unstable or too fast is slowed down. Where that does not help, turns and steps
 are shortened. A walk that cannot be made stable is an error.
 
-Gaits: nao sine, preview, osg; rh0 rh0, rh0-real, osg; teo osg; others osg, preview. The first is
-the default; others walk by preview where osg is refused.
+Gaits: nao sine, preview, osg; rh0 rh0, rh0-sim, rh0-real, osg; teo osg; others osg, preview. The
+first is the default (rh0-sim with --thesis); others walk by preview where osg is refused.
 
 For a description, the soles are searched (--left, --right), and the solvers of the legs are derived:
 six joints each, or five, from the root link to the links of the soles. Joints that move both legs
@@ -78,7 +78,8 @@ pub struct Arguments {
     /// Write the joint angles to this JSON file
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Write the columns of the thesis' tables to this CSV file, in degrees and its axes; for rh0
+    /// Write the columns of the thesis' tables to this CSV file, in degrees and its axes; for rh0, by default with the
+    /// parameters of the thesis' simulations
     #[arg(long, value_name = "FILE")]
     thesis: Option<PathBuf>,
     /// Write a picture to this SVG file
@@ -108,7 +109,10 @@ pub fn run(arguments: &Arguments) -> Outcome {
     };
     let output = arguments.output()?;
     let session = Session::start(arguments.budget.limits())?;
-    let named = walker::named(&arguments.robot, outline, &arguments.soles, &session.watch)?;
+    let mut named = walker::named(&arguments.robot, outline, &arguments.soles, &session.watch)?;
+    if arguments.thesis.is_some() {
+        named.walker.gaits.sort_by_key(|(name, _)| *name != "rh0-sim");
+    }
     let (biped, is_described) = (&named.walker.biped, robots::robot(&arguments.robot).is_none());
     let plan = |walker: &Walker| arguments.request.planned(walker, is_described, &session.watch);
     let Verified { plan: walk, notes } =

@@ -51,8 +51,8 @@ fn stands(command: &[String]) {
     succeed(&[&arguments[..], &["--quiet", "-o", &file]].concat());
     let Some(report) = reported(&[&file], 0) else { return };
     let compared = &report["comparison"];
-    let [planned, walked] = ["planned", "walked"]
-        .map(|route| ["ahead", "aside", "turn"].map(|name| number(&compared[route][name])));
+    let [planned, walked] =
+        ["planned", "walked"].map(|route| ["ahead", "left", "turn"].map(|name| number(&compared[route][name])));
     let off = (walked[0] - planned[0]).hypot(walked[1] - planned[1]);
     let turned = (walked[2] - planned[2]).to_degrees();
     let margin = 1e3 * number(&report["usage"]["margin"][0]);

@@ -118,7 +118,7 @@ fn three_robots_walk_by_one_step_goal() {
     for (arguments, word) in [
         (&["walk", "nao", "--plan", "hop left"][..], "`hop left`"),
         (&["walk", "rh0", "--plan", "stride left"], "command 1"),
-        (&["walk", "rh0", "--gait", "seed"], "give one of `rh0`, `rh0-real`, `osg`"),
+        (&["walk", "rh0", "--gait", "seed"], "give one of `rh0`, `rh0-sim`, `rh0-real`, `osg`"),
         (&["walk", "nao", "--dip", "0.01"], "--gait osg"),
         (&["walk", "teo", "--power", "2"], "--power is for RH0's laws"),
         (&["walk", "nao", "--steps", "1", "--thesis", "/nowhere/t.csv"], "its tables are for rh0"),

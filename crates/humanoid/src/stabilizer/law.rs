@@ -116,7 +116,9 @@ impl Stabilizer {
         self.ahead += dt * (self.speed - 1.0);
         let time = state.time + self.ahead;
         let mut plan = self.walk.at(time);
-        self.steps.displace(&self.walk, time, dt, &mut plan);
+        let weight = self.walker.biped.model.mass() * GRAVITY;
+        let is_pressed = state.soles.map(|sole| sole.force.z > PRESSED * weight);
+        self.steps.displace(&self.walk, (time, dt), is_pressed, &mut plan);
         let rate = (GRAVITY / plan.height()).sqrt();
         let seen = self.observer.estimate(&self.walker.biped, &plan, state, (dt, rate, self.gains.observer))?;
         let parts = self.balance(&plan, &seen, rate, (time, dt));

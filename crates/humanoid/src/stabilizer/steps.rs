@@ -30,24 +30,36 @@ pub(super) struct Steps {
     reference: Vector2<f64>,
     /// The foot that swings, and the displacement of its next footstep.
     swing: Option<(usize, Vector2<f64>)>,
+    /// Where the swinging foot has touched the floor before its planned landing \[m\].
+    touched: Option<Vector2<f64>>,
 }
 
 impl Steps {
-    /// The displaced plan, `dt` after the last time.
-    pub fn displace(&mut self, walk: &PlannedWalk, time: f64, dt: f64, plan: &mut Instant) {
+    /// The displaced plan, `dt` after the last time. A swinging foot that presses the floor in the second half of its swing stays where it is.
+    pub fn displace(&mut self, walk: &PlannedWalk, (time, dt): (f64, f64), is_pressed: [bool; 2], plan: &mut Instant) {
         let swinging = match plan.stands {
             [true, false] => Some(1),
             [false, true] => Some(0),
             _ => None,
         };
+        if swinging.is_none() {
+            self.touched = None;
+        }
         self.swing = swinging.map(|side| match self.swing {
             Some((same, step)) if same == side => (side, step),
             _ => (side, self.reference),
         });
         match self.swing {
             Some((side, step)) => {
-                let remaining = walk.landing(side, time).map_or(0.0, |landing| EARLY * (landing - time));
-                approach(&mut self.feet[side], step, dt, remaining);
+                let left = walk.swing_left(side, time);
+                let remaining = left.map_or(0.0, |(left, _)| EARLY * left);
+                let planned = plan.soles[side].translation.vector.xy();
+                let is_late = left.is_some_and(|(_, share)| share < 0.5);
+                match self.touched {
+                    Some(place) => self.feet[side] = place - planned,
+                    None if is_late && is_pressed[side] => self.touched = Some(planned + self.feet[side]),
+                    None => approach(&mut self.feet[side], step, dt, remaining),
+                }
                 approach(&mut self.reference, self.feet[1 - side], dt, remaining);
             }
             None => {
