@@ -13,7 +13,8 @@ pub struct Verification {
     /// Simulate the walk with MuJoCo, with feedback on a level floor; a walk that falls is refused (exit status 5)
     #[arg(long)]
     verify: bool,
-    /// Same as --verify, but a walk that falls is planned again until it stands: slower, wider, lower
+    /// Same as --verify, but a walk that falls is planned again until it stands: slower, nearer to the supporting foot,
+    /// wider, lower
     #[arg(long)]
     repair: bool,
 }
@@ -59,7 +60,7 @@ impl Verification {
             }
         }
         let advice = match self.repair {
-            true => "slower, wider and lower walks fall, too; nothing was written",
+            true => "so do slower, wider and lower walks; nothing was written",
             false => "nothing was written; --repair plans again until it stands",
         };
         console::line("error", &format!("simulated: the robot falls at {time:.2} s; {advice}"));

@@ -94,7 +94,7 @@ fn rh0_walks_in_words_and_in_the_thesis_columns() {
     assert!(table.lines().nth(3).unwrap().starts_with("0.072,"));
     assert_eq!(Trajectory::read_csv(&csv).unwrap().times.len(), table.lines().count() - 1);
     assert!(fs::read_to_string(&svg).unwrap().contains("ankles, oblique view"));
-    let reported = succeed(&["walk", "rh0", "--plan", "turn left 90"]);
+    let reported = succeed(&["walk", "rh0", "--gait", "rh0-sim", "--plan", "turn left 90"]);
     assert!(
         reported.contains("12 steps")
             && reported.contains("34.99 s of them stepping")

@@ -108,6 +108,7 @@ pub const RH0_GENERIC: GaitDefaults = GaitDefaults {
     gait: Gait::OneStep(OneStep { laws: Laws::Generic, dip: 0.004, pitch: PI / 9.0, upright: None }),
     hip_heights: Cow::Borrowed(&LOWER_HIP_HEIGHTS),
     double_support: 0.5,
+    margin: 0.005,
     ..RH0_SIMULATION
 };
 
