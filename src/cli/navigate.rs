@@ -35,7 +35,9 @@ distance of the body from obstacles, joints within limits and speeds, the zero m
 its margin.
 
 --verify and --repair simulate the walk with MuJoCo, without the obstacles. The exit status is 5 if it
-falls, and nothing is written. If there is no path, the exit status is 4, and picture and JSON show the cells that enclose start or
+falls, and nothing is written.
+
+If there is no path, the exit status is 4, and picture and JSON show the cells that enclose start or
 goal.";
 
 /// Plans the path of a humanoid on a map, its footsteps, and the joint angles of the walk

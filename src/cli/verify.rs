@@ -44,7 +44,8 @@ impl Verification {
         if !(self.verify || self.repair) {
             return Ok(Verified { plan: first, notes: Vec::new() });
         }
-        let Some(time) = fall(named, walk(&first), watch)? else {
+        let Some(first_walk) = walk(&first) else { return Ok(Verified { plan: first, notes: Vec::new() }) };
+        let Some(time) = fall(named, first_walk, watch)? else {
             return Ok(Verified { plan: first, notes: vec!["simulated: the robot stands".to_owned()] });
         };
         if self.repair {
@@ -53,7 +54,8 @@ impl Verification {
                     Err(error) if error.kind() == ErrorKind::BadValue => continue,
                     repaired => repaired?,
                 };
-                if fall(named, walk(&repaired), watch)?.is_none() {
+                let Some(repaired_walk) = walk(&repaired) else { continue };
+                if fall(named, repaired_walk, watch)?.is_none() {
                     let note = format!("simulated: the robot would fall at {time:.2} s; it stands with {repair}");
                     return Ok(Verified { plan: repaired, notes: vec![note] });
                 }
@@ -68,10 +70,8 @@ impl Verification {
     }
 }
 
-/// The time at which the robot falls in a simulation with feedback on a level floor \[s\]; `None` if it does not, or if
-/// there is no walk.
-fn fall(named: &Named, walk: Option<&Walk>, watch: &Watch) -> Result<Option<f64>> {
-    let Some(walk) = walk else { return Ok(None) };
+/// The time at which the robot falls in a simulation with feedback on a level floor \[s\]; `None` if it does not.
+fn fall(named: &Named, walk: &Walk, watch: &Watch) -> Result<Option<f64>> {
     let trajectory = walk.trajectory(&named.walker.biped);
     let model = named.shod.robot.to_mjcf(&named.meshes, &mut Vec::new())?;
     let soles = named.shod.soles.each_ref().map(String::as_str);

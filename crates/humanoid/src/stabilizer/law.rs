@@ -118,7 +118,9 @@ impl Stabilizer {
         let mut plan = self.walk.at(time);
         let weight = self.walker.biped.model.mass() * GRAVITY;
         let is_pressed = state.soles.map(|sole| sole.force.z > PRESSED * weight);
-        self.steps.displace(&self.walk, (time, dt), is_pressed, &mut plan);
+        let torso = state.orientation * self.walker.biped.torso_from_root.rotation.inverse();
+        self.steps.measure(yaw(&torso), yaw(&plan.posture.world_from_torso.rotation), dt);
+        self.steps.displace(&self.walk, (time, dt), (is_pressed, self.gains.heading), &mut plan);
         let rate = (GRAVITY / plan.height()).sqrt();
         let seen = self.observer.estimate(&self.walker.biped, &plan, state, (dt, rate, self.gains.observer))?;
         let parts = self.balance(&plan, &seen, rate, (time, dt));
@@ -296,6 +298,12 @@ impl Stabilizer {
         self.before = Some((time, posture.q.clone()));
         JointTargets { positions: posture.q, velocities }
     }
+}
+
+/// The heading of the x axis \[rad\].
+fn yaw(orientation: &UnitQuaternion<f64>) -> f64 {
+    let ahead = orientation * Vector3::x();
+    ahead.y.atan2(ahead.x)
 }
 
 /// Half of the width of the left sole \[m\].
