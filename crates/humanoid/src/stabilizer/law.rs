@@ -182,7 +182,8 @@ impl Stabilizer {
             && left != right
             && let Some(landing) = self.walk.landing(usize::from(left), time)
         {
-            self.speed = self.steps.adjust(biped, plan, (error, held - plan.zmp), (rate, landing - time));
+            let times = (rate, landing - time, self.walk.spare);
+            self.speed = self.steps.adjust(biped, plan, (error, held - plan.zmp), times);
         }
         distribute(biped, &prints, plan.stands, &held, margin)
     }

@@ -37,6 +37,8 @@ impl Instant {
 pub(super) struct PlannedWalk {
     times: Vec<f64>,
     rows: Vec<Instant>,
+    /// The factor on the speed of the walk at which the fastest joint reaches its speed limit, at least 1.
+    pub spare: f64,
 }
 
 impl PlannedWalk {
@@ -79,7 +81,14 @@ impl PlannedWalk {
             let time = walk.times[at + 1] - walk.times[at - 1];
             rows[at].velocity = (rows[at + 1].centre - rows[at - 1].centre) / time;
         }
-        Ok(PlannedWalk { times: walk.times.iter().map(|time| time - walk.times[0]).collect(), rows })
+        let used = |(at, pair): (usize, &[Instant])| {
+            let time = walk.times[at + 1] - walk.times[at];
+            let moved = pair[0].posture.q.iter().zip(&pair[1].posture.q).map(|(from, to)| (to - from).abs() / time);
+            moved.zip(&walker.biped.joints).map(|(rate, joint)| rate / joint.speed).fold(0.0, f64::max)
+        };
+        let fastest = rows.windows(2).enumerate().map(used).fold(0.0, f64::max);
+        let times = walk.times.iter().map(|time| time - walk.times[0]).collect();
+        Ok(PlannedWalk { times, rows, spare: fastest.recip().max(1.0) })
     }
 
     /// The walk at a time, by linear interpolation; before its start and after its end it stands.

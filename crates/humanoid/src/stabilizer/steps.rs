@@ -156,19 +156,20 @@ impl Steps {
 
     /// Moves the next footstep: with the zero moment point off by `held` from its plan, the error of the DCM grows until the landing. The footstep moves by
     /// the error then, so that the next step begins without one. Returns the factor on the speed of the swing: where the error would be greater than a footstep
-    /// can move, the foot lands earlier.
+    /// can move, the foot lands earlier. `spare` is the factor that the joints' speed limits permit.
     pub fn adjust(
         &mut self,
         biped: &Biped,
         plan: &Instant,
         (error, held): (Vector2<f64>, Vector2<f64>),
-        (rate, remaining): (f64, f64),
+        (rate, remaining, spare): (f64, f64, f64),
     ) -> f64 {
         let Some((side, _)) = self.swing else { return 1.0 };
         let most = MOST * plan.height();
         // In this time the error grows to `most`.
         let left = ((most + held.norm()) / (error - held).norm()).ln() / rate;
-        let hurry = if remaining > SHORTEST { (remaining / left.max(SHORTEST)).clamp(1.0, MOST_HURRY) } else { 1.0 };
+        let hurry =
+            if remaining > SHORTEST { (remaining / left.max(SHORTEST)).clamp(1.0, spare.min(MOST_HURRY)) } else { 1.0 };
         let grown = held + (error - held) * (rate * remaining / hurry).exp();
         let moved = grown * (most / grown.norm().max(most));
         if moved.norm() < LEAST * plan.height() {
