@@ -29,9 +29,11 @@ Metres, and degrees for headings; radians in files. The path is that of the midd
 has room for the robot at every heading; if there is no such path, room for the core of its body.
 
 Footsteps follow the path as far as legs and limits permit; where that fails, they are searched.
-Each step is a walk of its own by one step goal, checked at every sample: soles on free cells,
-distance of the body from obstacles, joints within limits and speeds, the zero moment point within
-its margin.
+Each step is first planned as a walk of its own by one step goal, checked at every sample: soles on
+free cells, distance of the body from obstacles, joints within limits and speeds, the zero moment
+point within its margin. Then preview control walks all footsteps without rests between them, with
+the same checks. Where that fails even slowly, the robot rests after each step, with a note; so it
+does by --gait osg.
 
 If there is no path, the exit status is 4, and picture and JSON show the cells that enclose start or
 goal.";
@@ -58,7 +60,7 @@ pub struct Arguments {
     /// The length and width of the body, seen from above (default: from the shapes of the description) [m]
     #[arg(long, value_name = "LENGTH,WIDTH", value_delimiter = ',', num_args = 1)]
     body: Option<Vec<f64>>,
-    /// The gait [default: the robot's first gait by one step goal]
+    /// The gait: preview walks without rests between the steps, a gait by one step goal rests after each [default: preview]
     #[arg(long, value_enum)]
     gait: Option<GaitName>,
     /// Start and end in the crouch, without lowering and rising
@@ -97,14 +99,18 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let output = arguments.output()?;
     let session = Session::start(Limits { quiet: arguments.quiet, ..Limits::default() })?;
     let named = walker::named(&arguments.robot, Outline::Measured, &arguments.soles, &session.watch)?;
-    let notes = named.robot.parts().notes.clone();
+    let mut notes = named.robot.parts().notes.clone();
     let (map, default_start) = arguments.floor.map(&arguments.map)?;
+    let blended = arguments.blended(&named)?;
     let pilot = arguments.pilot(named, &session.watch)?;
     let floor = Floor::new(&map, arguments.places.apart)?;
     let (start, goal) = (arguments.places.start(default_start)?, arguments.places.goal()?);
     let begun = Instant::now();
     let feet = start.feet(pilot.half_width());
-    let found = Plan::find(&pilot, &floor, feet, goal.by(arguments.method.method()), &session.watch)?;
+    let mut found = Plan::find(&pilot, &floor, feet, goal.by(arguments.method.method()), &session.watch)?;
+    if let (Ok(plan), Some(gait)) = (&mut found, &blended) {
+        notes.extend(blend(plan, (&pilot, &floor), gait, &session.watch)?);
+    }
     let milliseconds = 1e3 * begun.elapsed().as_secs_f64();
     drop(session);
     match &found {
@@ -142,8 +148,22 @@ impl Arguments {
             Some(_) => return Err(bad("--body takes two numbers: --body 0.3,0.5")),
             None => Body::new(&named.robot, &named.walker.biped, &named.meshes)?,
         };
-        let defaults = steps(&named.walker.gaits, self.gait)?;
-        Pilot::new(named.walker, defaults, body, !self.crouched, watch)
+        let wanted = self.gait.filter(|gait| !matches!(gait, GaitName::Preview));
+        let defaults = steps(&named.walker.gaits, wanted)?;
+        let blended = self.blended(&named)?;
+        let pilot = Pilot::new(named.walker, defaults, body, !self.crouched, watch)?;
+        Ok(match blended {
+            Some(gait) => pilot.for_gait(&gait),
+            None => pilot,
+        })
+    }
+
+    /// The parameters of the gait without rests, unless a gait by one step goal is requested.
+    fn blended(&self, named: &Named) -> Result<Option<GaitDefaults>> {
+        match self.gait {
+            None | Some(GaitName::Preview) => walker::defaults(&named.walker.gaits, Some(GaitName::Preview)).map(Some),
+            Some(_) => Ok(None),
+        }
     }
 
     /// The output; it replaces neither the robot nor the map.
@@ -178,6 +198,7 @@ impl Arguments {
                 json_report["wide"] = plan.course.is_wide.into();
                 json_report["steps"] = plan.walk.schedule.route.steps.iter().map(step).collect();
                 json_report["seconds"] = summary.duration.into();
+                json_report["rests"] = summary.gait.is_one_step().into();
                 json_report["margin"] = summary.margin.value.into();
                 let refused = |refusal: &Refusal| {
                     let mut value = step(&refusal.footstep);
@@ -204,6 +225,26 @@ impl MethodName {
             MethodName::M3r => Method::M3r,
             MethodName::Potential => Method::Potential,
         }
+    }
+}
+
+/// Replaces the walk of a plan by one without rests between its steps. Where none is feasible, the walk stays and the
+/// result is a note.
+fn blend(
+    plan: &mut Plan,
+    (pilot, floor): (&Pilot, &Floor),
+    gait: &GaitDefaults,
+    watch: &Watch,
+) -> Result<Option<String>> {
+    if plan.walk.schedule.route.steps.is_empty() {
+        return Ok(None);
+    }
+    match plan.blended(pilot, floor, gait, watch)? {
+        Ok(walk) => {
+            plan.walk = walk;
+            Ok(None)
+        }
+        Err(reason) => Ok(Some(format!("the robot rests after each step, because preview control fails: {reason}"))),
     }
 }
 

@@ -61,4 +61,5 @@ pub use schedule::{Action, Durations, Phase, Schedule};
 pub use step_commands::{Measures, StepCommand, step_commands};
 pub use summary::{Extreme, Summary};
 pub use walker::Walker;
+pub(crate) use walker::preview_defaults;
 pub use zmp::{Configuration, GRAVITY, momentum_between, of_pendulum, zero_moment_point};
