@@ -39,7 +39,7 @@ const ASIDE: f64 = 1e-3;
 /// Heights of the hip by preview control, as such fractions.
 const BENT: [f64; 5] = [0.94, 0.925, 0.91, 0.89, 0.87];
 /// The length of a step by preview control, as a fraction of the leg's length, and its duration in units of sqrt(leg length / gravity).
-const PACE: f64 = 0.2;
+const PACE: f64 = 0.24;
 const PENDULUMS: f64 = 2.8;
 /// The duration of the rest before and after a walk by preview control in that unit: the motion that begins before the
 /// first step, and fades after the last one, by `exp(-t)`, is then below 0.1 %.
