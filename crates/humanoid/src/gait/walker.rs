@@ -37,7 +37,7 @@ const UPRIGHT: f64 = 0.985;
 /// The least distance of a joint that does not walk from its limits \[rad or m\].
 const ASIDE: f64 = 1e-3;
 /// Heights of the hip by preview control, as such fractions.
-const BENT: [f64; 5] = [0.94, 0.925, 0.91, 0.89, 0.87];
+const BENT: [f64; 7] = [0.94, 0.925, 0.955, 0.965, 0.91, 0.89, 0.87];
 /// The length of a step by preview control, as a fraction of the leg's length, and its duration in units of sqrt(leg length / gravity).
 const PACE: f64 = 0.24;
 const PENDULUMS: f64 = 2.8;
