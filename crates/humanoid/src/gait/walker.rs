@@ -39,8 +39,8 @@ const ASIDE: f64 = 1e-3;
 /// Heights of the hip by preview control, as such fractions.
 const BENT: [f64; 7] = [0.94, 0.925, 0.955, 0.965, 0.91, 0.89, 0.87];
 /// The length of a step by preview control, as a fraction of the leg's length, and its duration in units of sqrt(leg length / gravity).
-const PACE: f64 = 0.24;
-const PENDULUMS: f64 = 2.8;
+const PACE: f64 = 0.3;
+const PENDULUMS: f64 = 3.2;
 /// The duration of the rest before and after a walk by preview control in that unit: the motion that begins before the
 /// first step, and fades after the last one, by `exp(-t)`, is then below 0.1 %.
 const REST: f64 = 7.0;
@@ -166,7 +166,7 @@ pub(crate) fn preview_defaults(biped: &Biped) -> GaitDefaults {
         amplitude: biped.half_width(),
         hip_heights: Cow::Owned(BENT.map(|share| share * length + ankle).to_vec()),
         period: PENDULUMS * (length / GRAVITY).sqrt(),
-        double_support: 0.25,
+        double_support: 0.4,
         rest: REST * (length / GRAVITY).sqrt(),
         ahead,
         margin: 0.25 * room,
