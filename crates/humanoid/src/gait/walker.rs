@@ -170,6 +170,7 @@ pub(crate) fn preview_defaults(biped: &Biped) -> GaitDefaults {
         rest: REST * (length / GRAVITY).sqrt(),
         ahead,
         margin: 0.25 * room,
+        most_turn: 0.25,
         ..one_step(biped)
     }
 }

@@ -94,5 +94,6 @@ pub const NAO_PREVIEW: GaitDefaults = GaitDefaults {
     period: 0.65,
     double_support: 0.3,
     rest: 1.0,
+    most_turn: 0.15,
     ..NAO_SINE
 };
