@@ -30,6 +30,7 @@ mod reference;
 mod refusal;
 mod request;
 mod schedule;
+mod shortened;
 mod slower;
 mod step_commands;
 mod summary;

@@ -24,8 +24,9 @@ const SETTLED: f64 = 1e-13;
 /// The greatest number of times that the difference between the zero moment points of multibody and cart is fed back:
 /// Kajita's second stage, repeated.
 const FEEDBACKS: usize = 3;
-/// The distance between the zero moment point and its reference below which nothing is fed back \[m\].
-const NEAR: f64 = 1e-3;
+/// The distance between the zero moment point and its reference below which nothing is fed back \[m\]: a small part of
+/// the soles of all robots.
+const NEAR: f64 = 3e-3;
 
 /// The gains of preview control for a height of the centre of mass.
 #[derive(Clone, Debug, PartialEq)]
