@@ -4,6 +4,7 @@ use nalgebra::{Isometry3, Point2, Translation3, UnitQuaternion, Vector2, Vector3
 
 use super::distribution::{Part, distribute, within};
 use super::estimate::{Estimate, Observer, PRESSED};
+use super::floor::Floor;
 use super::gains::StabilizerGains;
 use super::planned::{Instant, PlannedWalk};
 use super::sag::static_torques;
@@ -52,6 +53,7 @@ pub struct Stabilizer {
     /// The rotation of the torso about x and y of its heading \[rad\].
     lean: Vector2<f64>,
     steps: Steps,
+    floor: Floor,
     /// The displacement of the torso \[m\].
     sway: Vector2<f64>,
     /// The stiffness of the joints' position controllers \[N m/rad\].
@@ -78,6 +80,7 @@ impl Stabilizer {
             last,
             before: None,
             steps: Steps::default(),
+            floor: Floor::default(),
             integral: Vector2::zeros(),
             tilts: [Vector2::zeros(); 2],
             lean: Vector2::zeros(),
@@ -110,8 +113,10 @@ impl Stabilizer {
         let mut plan = self.walk.at(state.time);
         let dt = self.before.as_ref().map_or(0.0, |(time, _)| (state.time - time).min(MOST_STEP));
         self.steps.displace(&self.walk, state.time, dt, &mut plan);
+        self.floor.incline(&mut plan);
         let rate = (GRAVITY / plan.height()).sqrt();
         let seen = self.observer.estimate(&self.walker.biped, &plan, state, (dt, rate, self.gains.observer))?;
+        self.floor.observe(&self.walker.biped, &plan, &seen, dt);
         let parts = self.balance(&plan, &seen, rate, (state.time, dt));
         self.turn_soles(&plan, &seen, &parts, dt);
         self.straighten(&plan, &seen, dt);
