@@ -11,10 +11,11 @@ use super::floor::{self, FloorArguments, PlaceArguments};
 use super::json::FORMAT;
 use super::output::{Force, Kind, Output};
 use super::progress::{Limits, Session};
+use super::verify::Verification;
 use super::walker::{self, GaitName, Named, SoleArguments};
 use super::{Halt, Outcome, console};
 use crate::{Error, ErrorKind, Result, Watch};
-use groebot_humanoid::gait::{Footstep, GaitDefaults, Summary};
+use groebot_humanoid::gait::{Footstep, GaitDefaults, Summary, Walk, Walker};
 use groebot_humanoid::task::{Blocked, Body, Floor, Method, Pilot, Plan, Refusal};
 use groebot_humanoid::walkers::Outline;
 
@@ -79,6 +80,8 @@ pub struct Arguments {
     #[arg(long)]
     quiet: bool,
     #[command(flatten)]
+    verification: Verification,
+    #[command(flatten)]
     force: Force,
 }
 
@@ -94,24 +97,44 @@ pub(super) enum MethodName {
     Potential,
 }
 
+/// A plan, or the proof that there is no path.
+type Found = std::result::Result<Plan, Blocked>;
+
+/// The result of a pilot.
+struct Navigated {
+    pilot: Pilot,
+    found: Found,
+    /// The time of planning \[ms\].
+    milliseconds: f64,
+    /// Why the robot rests after each step, unless that was requested.
+    note: Option<String>,
+}
+
+fn walk_of(navigated: &Navigated) -> Option<&Walk> {
+    navigated.found.as_ref().ok().map(|plan| &plan.walk)
+}
+
 /// Plans the walk and writes the requested files.
 pub fn run(arguments: &Arguments) -> Outcome {
     let output = arguments.output()?;
     let session = Session::start(Limits { quiet: arguments.quiet, ..Limits::default() })?;
     let named = walker::named(&arguments.robot, Outline::Measured, &arguments.soles, &session.watch)?;
-    let mut notes = named.robot.parts().notes.clone();
     let (map, default_start) = arguments.floor.map(&arguments.map)?;
-    let blended = arguments.blended(&named)?;
-    let pilot = arguments.pilot(named, &session.watch)?;
     let floor = Floor::new(&map, arguments.places.apart)?;
     let (start, goal) = (arguments.places.start(default_start)?, arguments.places.goal()?);
-    let begun = Instant::now();
-    let feet = start.feet(pilot.half_width());
-    let mut found = Plan::find(&pilot, &floor, feet, goal.by(arguments.method.method()), &session.watch)?;
-    if let (Ok(plan), Some(gait)) = (&mut found, &blended) {
-        notes.extend(blend(plan, (&pilot, &floor), gait, &session.watch)?);
-    }
-    let milliseconds = 1e3 * begun.elapsed().as_secs_f64();
+    let plan = |walker: &Walker| -> Result<Navigated> {
+        let pilot = arguments.pilot(&named, walker, &session.watch)?;
+        let begun = Instant::now();
+        let feet = start.feet(pilot.half_width());
+        let mut found = Plan::find(&pilot, &floor, feet, goal.by(arguments.method.method()), &session.watch)?;
+        let note = match (&mut found, arguments.blended(walker)?) {
+            (Ok(plan), Some(gait)) => blend(plan, (&pilot, &floor), &gait, &session.watch)?,
+            _ => None,
+        };
+        Ok(Navigated { pilot, found, milliseconds: 1e3 * begun.elapsed().as_secs_f64(), note })
+    };
+    let verified = arguments.verification.planned(&named, &session.watch, plan, walk_of)?;
+    let Navigated { pilot, found, milliseconds, note } = verified.plan;
     drop(session);
     match &found {
         Ok(plan) => arguments.write(&output, &pilot, &floor, plan)?,
@@ -121,6 +144,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
             }
         }
     }
+    let notes = [named.robot.parts().notes.clone(), note.into_iter().collect(), verified.notes].concat();
     if arguments.json {
         let mut json_report = arguments.json_report(&pilot, &found, milliseconds);
         json_report["notes"] = notes.into();
@@ -142,16 +166,16 @@ pub fn run(arguments: &Arguments) -> Outcome {
 }
 
 impl Arguments {
-    fn pilot(&self, named: Named, watch: &Watch) -> Result<Pilot> {
+    fn pilot(&self, named: &Named, walker: &Walker, watch: &Watch) -> Result<Pilot> {
         let body = match self.body.as_deref() {
             Some(&[length, width]) => Body::of_size(length, width)?,
             Some(_) => return Err(bad("--body takes two numbers: --body 0.3,0.5")),
-            None => Body::new(&named.robot, &named.walker.biped, &named.meshes)?,
+            None => Body::new(&named.robot, &walker.biped, &named.meshes)?,
         };
-        let wanted = self.gait.filter(|gait| !matches!(gait, GaitName::Preview));
-        let defaults = steps(&named.walker.gaits, wanted)?;
-        let blended = self.blended(&named)?;
-        let pilot = Pilot::new(named.walker, defaults, body, !self.crouched, watch)?;
+        let blended = self.blended(walker)?;
+        let wanted = self.gait.filter(|_| blended.is_none());
+        let defaults = steps(&walker.gaits, wanted)?;
+        let pilot = Pilot::new(walker.clone(), defaults, body, !self.crouched, watch)?;
         Ok(match blended {
             Some(gait) => pilot.for_gait(&gait),
             None => pilot,
@@ -159,9 +183,9 @@ impl Arguments {
     }
 
     /// The parameters of the gait without rests, unless a gait by one step goal is requested.
-    fn blended(&self, named: &Named) -> Result<Option<GaitDefaults>> {
+    fn blended(&self, walker: &Walker) -> Result<Option<GaitDefaults>> {
         match self.gait {
-            None | Some(GaitName::Preview) => walker::defaults(&named.walker.gaits, Some(GaitName::Preview)).map(Some),
+            None | Some(GaitName::Preview) => walker::defaults(&walker.gaits, Some(GaitName::Preview)).map(Some),
             Some(_) => Ok(None),
         }
     }
@@ -184,7 +208,7 @@ impl Arguments {
         }
     }
 
-    fn json_report(&self, pilot: &Pilot, found: &std::result::Result<Plan, Blocked>, milliseconds: f64) -> Value {
+    fn json_report(&self, pilot: &Pilot, found: &Found, milliseconds: f64) -> Value {
         let method = self.method.to_possible_value().map(|value| value.get_name().to_owned());
         let biped = &pilot.walker().biped;
         let mut json_report =

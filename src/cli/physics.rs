@@ -214,6 +214,13 @@ impl Exchange<'_> {
     }
 }
 
+impl Default for Case {
+    /// A level floor with friction 0.8; the robot as described.
+    fn default() -> Self {
+        Case { friction: 0.8, slope: [0.0; 2], mass: 1.0, gain: 1.0, latency: 0.0, noise: 0.0, push: None }
+    }
+}
+
 impl Case {
     fn arguments(&self) -> Vec<String> {
         let Case { friction, slope, mass, gain, latency, noise, push } = self;

@@ -16,8 +16,9 @@ fn walked(arguments: &[&str]) -> (TempDir, String) {
     (folder, file)
 }
 
-fn simulated(arguments: &[&str], python: Option<&Path>) -> Ran {
-    let mut command = groebot(&[&["simulate"], arguments].concat());
+/// Runs a command that needs MuJoCo, with another Python if one is given.
+pub(super) fn with_python(arguments: &[&str], python: Option<&Path>) -> Ran {
+    let mut command = groebot(arguments);
     if let Some(python) = python {
         command.env("GROEBOT_PYTHON", python);
     }
@@ -27,20 +28,32 @@ fn simulated(arguments: &[&str], python: Option<&Path>) -> Ran {
     Ran { code: output.status.code().unwrap(), out, err }
 }
 
+fn simulated(arguments: &[&str], python: Option<&Path>) -> Ran {
+    with_python(&[&["simulate"], arguments].concat(), python)
+}
+
+/// Whether a run ended because there is no MuJoCo: reported, or an error with `GROEBOT_REQUIRE_TOOLS=1`.
+pub(super) fn is_skipped(ran: &Ran) -> bool {
+    if ran.code != 1 || !ran.err.contains("cannot run MuJoCo") {
+        return false;
+    }
+    let required = std::env::var("GROEBOT_REQUIRE_TOOLS").is_ok_and(|value| value == "1");
+    assert!(!required, "{}", ran.err);
+    println!("skipped: {}", ran.err);
+    true
+}
+
 /// The JSON output of a run. Without MuJoCo it is `None`, with a message, or an error with `GROEBOT_REQUIRE_TOOLS=1`.
-fn reported(arguments: &[&str], code: i32) -> Option<Value> {
+pub(super) fn reported(arguments: &[&str], code: i32) -> Option<Value> {
     let ran = simulated(&[arguments, &["--json"]].concat(), None);
-    if ran.code == 1 && ran.err.contains("cannot run MuJoCo") {
-        let required = std::env::var("GROEBOT_REQUIRE_TOOLS").is_ok_and(|value| value == "1");
-        assert!(!required, "{}", ran.err);
-        println!("skipped: {}", ran.err);
+    if is_skipped(&ran) {
         return None;
     }
     assert_eq!((ran.code, ran.err.as_str()), (code, ""));
     Some(serde_json::from_str(&ran.out).unwrap())
 }
 
-fn number(value: &Value) -> f64 {
+pub(super) fn number(value: &Value) -> f64 {
     value.as_f64().unwrap()
 }
 

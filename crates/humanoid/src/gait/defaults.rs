@@ -1,6 +1,7 @@
 //! The default parameters of a robot's gait. Main type: [`GaitDefaults`].
 
 use std::borrow::Cow;
+use std::fmt;
 
 use super::biped::Biped;
 use super::footprint::Route;
@@ -44,6 +45,39 @@ pub struct GaitDefaults {
     pub most_turn: f64,
     /// The time between two samples.
     pub tick: f64,
+}
+
+/// Factors on the parameters of a gait that make a walk steadier.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Steadier {
+    /// The factor on the duration of a step.
+    pub slower: f64,
+    /// The factor on the lateral distance between the feet.
+    pub wider: f64,
+    /// The factor on the heights of the hip axes above the floor.
+    pub lower: f64,
+}
+
+/// The changes that `--repair` tries in order.
+pub const REPAIRS: [Steadier; 5] = [
+    Steadier { slower: 1.25, wider: 1.0, lower: 1.0 },
+    Steadier { slower: 1.5, wider: 1.0, lower: 1.0 },
+    Steadier { slower: 1.5, wider: 1.1, lower: 1.0 },
+    Steadier { slower: 1.5, wider: 1.1, lower: 0.97 },
+    Steadier { slower: 2.0, wider: 1.2, lower: 0.95 },
+];
+
+impl fmt::Display for Steadier {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "steps {} times as slow", self.slower)?;
+        if self.wider > 1.0 {
+            write!(f, ", feet {} times as far apart", self.wider)?;
+        }
+        if self.lower < 1.0 {
+            write!(f, ", hips at {} of their height", self.lower)?;
+        }
+        Ok(())
+    }
 }
 
 /// Factors that shorten turns and steps, tried in order when a walk is infeasible as requested.
@@ -111,6 +145,20 @@ impl GaitDefaults {
     #[must_use]
     pub fn eased(self, ease: f64) -> Self {
         GaitDefaults { most_turn: self.most_turn * ease, length: self.length * (1.0 + ease) / 2.0, ..self }
+    }
+
+    /// Same as `self`, but slower, wider and lower. The centre of mass keeps its distance from the supporting foot.
+    #[must_use]
+    pub fn steadier(&self, biped: &Biped, by: &Steadier) -> Self {
+        let half_width = self.half_width(biped);
+        let heights = self.hip_heights.iter().map(|height| height * by.lower).collect();
+        GaitDefaults {
+            period: self.period * by.slower,
+            half_width: Some(half_width * by.wider),
+            amplitude: self.amplitude + half_width * (by.wider - 1.0),
+            hip_heights: Cow::Owned(heights),
+            ..self.clone()
+        }
     }
 
     /// Adds a lowering before the first step and a rise after the last one, for one step goal.

@@ -44,7 +44,7 @@ pub use balance::{Balance, balance, support};
 pub use biped::{Biped, Foot, JointRange};
 pub use chains::{Chains, Difference};
 pub use check::{Demand, Fault, Found};
-pub use defaults::{GaitDefaults, plan_at};
+pub use defaults::{GaitDefaults, REPAIRS, Steadier, plan_at};
 pub use footing::Footing;
 pub use footprint::{Footprint, Footstep, MAX_STEPS, Regular, Route, Side};
 pub use forces::{Forces, Greatest};

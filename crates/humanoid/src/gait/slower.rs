@@ -94,6 +94,6 @@ fn factor(biped: &Biped, request: &Request, (balance, slow): (&Balance, Option<&
             }
             1.0 / low.sqrt()
         }
-        Fault::Static { .. } | Fault::Limit { .. } | Fault::Feet { .. } => f64::INFINITY,
+        Fault::Static { .. } | Fault::Limit { .. } | Fault::Feet { .. } | Fault::Tilt { .. } => f64::INFINITY,
     }
 }

@@ -60,6 +60,9 @@ pub struct Stabilizer {
     stiffness: Option<f64>,
     /// How much higher the left sole is than planned, and the right one lower \[m\].
     height: f64,
+    /// How much later in the plan the walk is than the time of the states \[s\], and the speed of the plan.
+    ahead: f64,
+    speed: f64,
 }
 
 impl Stabilizer {
@@ -86,6 +89,8 @@ impl Stabilizer {
             lean: Vector2::zeros(),
             sway: Vector2::zeros(),
             height: 0.0,
+            ahead: 0.0,
+            speed: 1.0,
         })
     }
 
@@ -110,14 +115,16 @@ impl Stabilizer {
     /// state, and when a corrected sole is out of reach.
     pub fn step(&mut self, state: &State) -> Result<JointTargets> {
         self.check(state)?;
-        let mut plan = self.walk.at(state.time);
         let dt = self.before.as_ref().map_or(0.0, |(time, _)| (state.time - time).min(MOST_STEP));
-        self.steps.displace(&self.walk, state.time, dt, &mut plan);
+        self.ahead += dt * (self.speed - 1.0);
+        let time = state.time + self.ahead;
+        let mut plan = self.walk.at(time);
+        self.steps.displace(&self.walk, time, dt, &mut plan);
         self.floor.incline(&mut plan);
         let rate = (GRAVITY / plan.height()).sqrt();
         let seen = self.observer.estimate(&self.walker.biped, &plan, state, (dt, rate, self.gains.observer))?;
         self.floor.observe(&self.walker.biped, &plan, &seen, dt);
-        let parts = self.balance(&plan, &seen, rate, (state.time, dt));
+        let parts = self.balance(&plan, &seen, rate, (time, dt));
         self.turn_soles(&plan, &seen, &parts, dt);
         self.straighten(&plan, &seen, dt);
         self.adapt_heights(&plan, &seen, &parts, dt);
@@ -169,13 +176,14 @@ impl Stabilizer {
         let inside = within(&support, &centroid(&support), &plan.zmp, margin);
         let zmp = plan.zmp + (1.0 + self.gains.dcm) * error + self.integral;
         let held = within(&support, &inside, &zmp, margin);
+        self.speed = 1.0;
         if held == zmp {
             self.integral += dt * self.gains.integral * error;
         } else if let [left, right] = plan.stands
             && left != right
             && let Some(landing) = self.walk.landing(usize::from(left), time)
         {
-            self.steps.adjust(biped, plan, (error, held - plan.zmp), (rate, landing - time));
+            self.speed = self.steps.adjust(biped, plan, (error, held - plan.zmp), (rate, landing - time));
         }
         distribute(biped, &prints, plan.stands, &held, margin)
     }

@@ -16,6 +16,10 @@ const BETWEEN: f64 = 0.01;
 const EARLY: f64 = 0.8;
 /// The time in which the reference follows the feet after the last step \[s\].
 const SETTLE: f64 = 0.5;
+/// The greatest factor on the speed of a swing.
+const MOST_HURRY: f64 = 2.0;
+/// The least time to a landing that is shortened \[s\].
+const SHORTEST: f64 = 0.05;
 
 /// The displacements of the feet and of the reference from the plan \[m\].
 #[derive(Clone, Debug, Default)]
@@ -65,20 +69,24 @@ impl Steps {
     }
 
     /// Moves the next footstep: with the zero moment point off by `held` from its plan, the error of the DCM grows until the landing. The footstep moves by
-    /// the error then, so that the next step begins without one.
+    /// the error then, so that the next step begins without one. Returns the factor on the speed of the swing: where the error would be greater than a footstep
+    /// can move, the foot lands earlier.
     pub fn adjust(
         &mut self,
         biped: &Biped,
         plan: &Instant,
         (error, held): (Vector2<f64>, Vector2<f64>),
         (rate, remaining): (f64, f64),
-    ) {
-        let Some((side, _)) = self.swing else { return };
+    ) -> f64 {
+        let Some((side, _)) = self.swing else { return 1.0 };
         let most = MOST * plan.height();
-        let grown = held + (error - held) * (rate * remaining).exp();
+        // In this time the error grows to `most`.
+        let left = ((most + held.norm()) / (error - held).norm()).ln() / rate;
+        let hurry = if remaining > SHORTEST { (remaining / left.max(SHORTEST)).clamp(1.0, MOST_HURRY) } else { 1.0 };
+        let grown = held + (error - held) * (rate * remaining / hurry).exp();
         let moved = grown * (most / grown.norm().max(most));
         if moved.norm() < LEAST * plan.height() {
-            return;
+            return hurry;
         }
         // In the frame of the standing foot, the swinging one stays on its side.
         let print = Footprint::below(&plan.soles[1 - side]);
@@ -93,6 +101,7 @@ impl Steps {
         let mut own = turn(&moved, -1.0);
         own.y = outward * (outward * own.y).max((apart - planned).min(0.0));
         self.swing = Some((side, self.reference + turn(&own, 1.0)));
+        hurry
     }
 }
 

@@ -14,7 +14,7 @@ use std::f64::consts::TAU;
 
 use groebot_humanoid::gait::{Footprint, Walk};
 use groebot_humanoid::nav::Room;
-use groebot_humanoid::sim::{Destination, FIGURES, Next, PRESETS, Run, Start};
+use groebot_humanoid::sim::{Destination, FIGURES, Next, PRESETS, Run, Start, with_fields};
 use groebot_humanoid::task::{Body, Goal, Method};
 use groebot_humanoid::walkers::{self, Outline};
 use groebot_humanoid::{ErrorKind, Result, Watch};
@@ -131,6 +131,12 @@ fn what_cannot_be_is_refused_and_changes_nothing() {
     ] {
         let error = run.set(name, value, &watch).unwrap_err();
         assert!(error.message().contains(words), "{name} {value}: {error}");
+        // A page has no options.
+        let shown = with_fields(error.message());
+        assert!(
+            !shown.contains("--") && (name != "Lp" || shown.contains("(Hcm) or shorten the steps (Lp)")),
+            "{shown}"
+        );
         assert!(*run.figures() == figures && run.walk().references.len() == samples);
     }
     let on_it = run.room().clone().with_moved("box", middle(run.walk()).point(), 0.0).unwrap();
