@@ -38,8 +38,8 @@ radians; it starts at the origin.
 A phase that would be unstable or too fast is slowed down. Where that does not help, turns and steps
 are shortened. A walk that cannot be made stable is an error.
 
-Gaits: nao sine, preview, osg; rh0 rh0, rh0-real, osg; teo osg; others osg, preview. The first is
-the default; others walk by preview where osg is refused.
+Gaits: nao sine, preview, osg; rh0 rh0, rh0-real, osg, preview; teo osg, preview; others preview,
+osg. The first is the default; others walk by osg where preview is refused.
 
 For a description, the soles are searched (--left, --right), and the solvers of the legs are derived:
 six joints each, or five, from the root link to the links of the soles. Joints that move both legs
