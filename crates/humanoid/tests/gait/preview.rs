@@ -13,8 +13,11 @@ use super::{regular, request, robot, walk};
 fn straight(walker: &Walker, steps: usize) -> Walk {
     let defaults: &GaitDefaults = &walker.gaits.iter().find(|(name, _)| *name == "preview").unwrap().1;
     let half_width = defaults.half_width(&walker.biped);
-    let regular = Regular { steps, length: defaults.length, aside: 0.0, turn: 0.0, half_width, first: Side::Left };
-    let request = |height, _| Ok(defaults.request(&walker.biped, Route::regular(&regular)?, height));
+    let request = |height, ease| {
+        let length = defaults.clone().eased(ease).length;
+        let regular = Regular { steps, length, aside: 0.0, turn: 0.0, half_width, first: Side::Left };
+        Ok(defaults.request(&walker.biped, Route::regular(&regular)?, height))
+    };
     plan_at((&walker.biped, &walker.legs), None, &defaults.hip_heights, request, &Watch::none()).unwrap()
 }
 
