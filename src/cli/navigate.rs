@@ -36,6 +36,9 @@ point within its margin. Then preview control walks all footsteps without rests 
 the same checks. Where that fails even slowly, the robot rests after each step, with a note; so it
 does by --gait osg.
 
+--verify and --repair simulate the walk with MuJoCo, without the obstacles. The exit status is 5 if it
+falls, and nothing is written.
+
 If there is no path, the exit status is 4, and picture and JSON show the cells that enclose start or
 goal.";
 
@@ -280,7 +283,7 @@ fn steps(gaits: &[(&'static str, GaitDefaults)], wanted: Option<GaitName>) -> Re
     };
     let defaults = defaults.filter(|defaults| defaults.gait.is_one_step());
     defaults.ok_or_else(|| {
-        bad("a path needs a gait by one step goal; give --gait osg, rh0 or rh0-real, if this robot has it")
+        bad("a path needs a gait by one step goal; give --gait osg, rh0, rh0-sim or rh0-real, if this robot has it")
     })
 }
 

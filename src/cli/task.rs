@@ -36,6 +36,8 @@ the goal during the walk, and the path is planned again from the robot's current
 Afterwards every sample is checked: the distance of each link from each piece of furniture, the
 walls and the floor, soles on the floor by forward kinematics, the margin of the zero moment point,
 limits and speeds of the joints. The exit status is 1 if a check fails, 4 if there is no path.
+--verify and --repair simulate the walk with MuJoCo, without furniture; the exit status is 5 if it
+falls, and nothing is written.
 
 Metres, and degrees for headings and yaws. The goal for a piece of furniture is the place in front
 of it that is reached first. Rooms of groebot: living-room, encirclement (RH0 Fig. 5-25, 5-27).";

@@ -13,7 +13,8 @@ pub struct Verification {
     /// Simulate the walk with MuJoCo, with feedback on a level floor; a walk that falls is refused (exit status 5)
     #[arg(long)]
     verify: bool,
-    /// Same as --verify, but a walk that falls is planned again until it stands: slower, wider, lower
+    /// Same as --verify, but a walk that falls is planned again until it stands: slower, nearer to the supporting foot,
+    /// wider, lower
     #[arg(long)]
     repair: bool,
 }
@@ -43,7 +44,8 @@ impl Verification {
         if !(self.verify || self.repair) {
             return Ok(Verified { plan: first, notes: Vec::new() });
         }
-        let Some(time) = fall(named, walk(&first), watch)? else {
+        let Some(first_walk) = walk(&first) else { return Ok(Verified { plan: first, notes: Vec::new() }) };
+        let Some(time) = fall(named, first_walk, watch)? else {
             return Ok(Verified { plan: first, notes: vec!["simulated: the robot stands".to_owned()] });
         };
         if self.repair {
@@ -52,14 +54,15 @@ impl Verification {
                     Err(error) if error.kind() == ErrorKind::BadValue => continue,
                     repaired => repaired?,
                 };
-                if fall(named, walk(&repaired), watch)?.is_none() {
+                let Some(repaired_walk) = walk(&repaired) else { continue };
+                if fall(named, repaired_walk, watch)?.is_none() {
                     let note = format!("simulated: the robot would fall at {time:.2} s; it stands with {repair}");
                     return Ok(Verified { plan: repaired, notes: vec![note] });
                 }
             }
         }
         let advice = match self.repair {
-            true => "slower, wider and lower walks fall, too; nothing was written",
+            true => "so do slower, wider and lower walks; nothing was written",
             false => "nothing was written; --repair plans again until it stands",
         };
         console::line("error", &format!("simulated: the robot falls at {time:.2} s; {advice}"));
@@ -67,10 +70,8 @@ impl Verification {
     }
 }
 
-/// The time at which the robot falls in a simulation with feedback on a level floor \[s\]; `None` if it does not, or if
-/// there is no walk.
-fn fall(named: &Named, walk: Option<&Walk>, watch: &Watch) -> Result<Option<f64>> {
-    let Some(walk) = walk else { return Ok(None) };
+/// The time at which the robot falls in a simulation with feedback on a level floor \[s\]; `None` if it does not.
+fn fall(named: &Named, walk: &Walk, watch: &Watch) -> Result<Option<f64>> {
     let trajectory = walk.trajectory(&named.walker.biped);
     let model = named.shod.robot.to_mjcf(&named.meshes, &mut Vec::new())?;
     let soles = named.shod.soles.each_ref().map(String::as_str);

@@ -14,6 +14,10 @@ use groebot_humanoid::gait::{Biped, Chains, Difference, Forces, Summary, Walk, W
 use groebot_humanoid::walkers::Outline;
 use groebot_robot::robots;
 
+/// A margin below both is reported: \[m\], and as a fraction of the sole's width.
+const LEAST_MARGIN: f64 = 0.005;
+const LEAST_SHARE: f64 = 0.05;
+
 const EXAMPLES: &str = "Examples:
   groebot walk nao --steps 8 -o walk.csv --plot walk.svg
   groebot walk nao --steps 8 --length 0 --turn 40 -o turn.csv
@@ -27,6 +31,7 @@ const EXAMPLES: &str = "Examples:
   groebot walk rh0 --plan \"turn left 90\" --plot turn.svg
   groebot walk teo --goal 1,0.5 -o goal.csv
   groebot walk talos.urdf --goal 1,0 -o walk.csv
+  groebot walk talos.urdf --goal 1,0 --verify -o walk.csv
   groebot walk jvrc1.urdf --outline=-0.1,0.13,-0.06,0.06,-0.1 --goal 1,0
 
 Metres, seconds; degrees for --turn, --max-turn, --plan and in the summary, radians in files. The
@@ -36,10 +41,12 @@ A file of footsteps has the header foot,x,y,yaw and a line for each step: left o
 radians; it starts at the origin.
 
 A phase that would be unstable or too fast is slowed down. Where that does not help, turns and steps
-are shortened. A walk that cannot be made stable is an error.
+are shortened. A walk that cannot be made stable is an error. --verify and --repair simulate it with
+MuJoCo (`groebot simulate --help`); the exit status is 5 if it falls, and nothing is written.
 
-Gaits: nao sine, preview, osg; rh0 rh0, rh0-real, osg, preview; teo osg, preview; others preview,
-osg. The first is the default; others walk by osg where preview is refused.
+Gaits: nao sine, preview, osg; rh0 rh0, rh0-sim, rh0-real, osg, preview; teo osg, preview; others
+preview, osg. The first is the default (rh0-sim with --thesis); others walk by osg where preview is
+refused.
 
 For a description, the soles are searched (--left, --right), and the solvers of the legs are derived:
 six joints each, or five, from the root link to the links of the soles. Joints that move both legs
@@ -78,7 +85,8 @@ pub struct Arguments {
     /// Write the joint angles to this JSON file
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Write the columns of the thesis' tables to this CSV file, in degrees and its axes; for rh0
+    /// Write the columns of the thesis' tables to this CSV file, in degrees and its axes; for rh0, by default with the
+    /// parameters of the thesis' simulations
     #[arg(long, value_name = "FILE")]
     thesis: Option<PathBuf>,
     /// Write a picture to this SVG file
@@ -108,7 +116,10 @@ pub fn run(arguments: &Arguments) -> Outcome {
     };
     let output = arguments.output()?;
     let session = Session::start(arguments.budget.limits())?;
-    let named = walker::named(&arguments.robot, outline, &arguments.soles, &session.watch)?;
+    let mut named = walker::named(&arguments.robot, outline, &arguments.soles, &session.watch)?;
+    if arguments.thesis.is_some() {
+        named.walker.gaits.sort_by_key(|(name, _)| *name != "rh0-sim");
+    }
     let (biped, is_described) = (&named.walker.biped, robots::robot(&arguments.robot).is_none());
     let plan = |walker: &Walker| arguments.request.planned(walker, is_described, &session.watch);
     let Verified { plan: walk, notes } =
@@ -123,10 +134,25 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
     console::print_notes(&named.robot.parts().notes);
     console::print_notes(&notes);
+    if let Some(note) = narrow(biped, &summary) {
+        console::line("note", &note);
+    }
     console::print(&summary.to_string())?;
     let Some(forces) = forces else { return Ok(()) };
     console::print(&torques(biped, &walk, &forces))?;
     chains.map_or(Ok(()), |chains| console::print(&difference(&walk.difference(biped, &forces, &chains))))
+}
+
+/// A note about a margin below 5 mm and 5 % of the sole's width, which a walk has only on request.
+fn narrow(biped: &Biped, summary: &Summary) -> Option<String> {
+    let sides = biped.feet[0].corners.iter().map(|corner| corner.y);
+    let (low, high) = sides.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)));
+    let least = LEAST_MARGIN.min(LEAST_SHARE * (high - low));
+    let margin = summary.margin.value;
+    (margin < least).then(|| {
+        let (margin, least) = (1e3 * margin, 1e3 * least);
+        format!("the least margin is {margin:.1} mm; walks with less than {least:.1} mm may fall in physics (--verify)")
+    })
 }
 
 /// The differences between two chains and the whole multibody, as text.

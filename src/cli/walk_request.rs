@@ -166,7 +166,7 @@ impl RequestArguments {
             return match (self.dip, self.power, self.crouched, self.descent_intervals) {
                 (None, None, false, None) => Ok(()),
                 _ => {
-                    let text = "--dip, --power, --crouched and --descent-intervals are for one step goal: --gait osg, rh0 or rh0-real";
+                    let text = "--dip, --power, --crouched and --descent-intervals are for one step goal: --gait osg, rh0, rh0-sim or rh0-real";
                     Err(bad(text.into()))
                 }
             };
@@ -175,7 +175,9 @@ impl RequestArguments {
         match (&mut one_step.laws, self.power) {
             (_, None) => {}
             (Laws::Rh0 { power }, Some(given)) => *power = given,
-            (Laws::Generic, Some(_)) => return Err(bad("--power is for RH0's laws: --gait rh0 or rh0-real".into())),
+            (Laws::Generic, Some(_)) => {
+                return Err(bad("--power is for RH0's laws: --gait rh0, rh0-sim or rh0-real".into()));
+            }
         }
         Ok(())
     }

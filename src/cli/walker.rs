@@ -25,8 +25,10 @@ pub enum GaitName {
     Preview,
     /// One step goal by its generic laws: the centre of mass stays on a circle on the sole
     Osg,
-    /// One step goal by RH0's laws, with the parameters of the thesis' simulations (5.3)
+    /// One step goal by RH0's laws, with parameters that keep it upright in physics
     Rh0,
+    /// One step goal by RH0's laws, with the parameters of the thesis' simulations (5.3)
+    Rh0Sim,
     /// One step goal by RH0's laws, with the parameters of the thesis' experiments (6.2)
     Rh0Real,
 }

@@ -6,6 +6,7 @@ use std::fmt;
 use super::biped::Biped;
 use super::footprint::Route;
 use super::legs::Legs;
+use super::one_step::OneStep;
 use super::plan::{Planner, SLOWEST, Walk, plan};
 use super::reference::Style;
 use super::request::{Gait, Request};
@@ -47,11 +48,14 @@ pub struct GaitDefaults {
     pub tick: f64,
 }
 
-/// Factors on the parameters of a gait that make a walk steadier.
+/// Changes of a gait that make a walk steadier.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Steadier {
     /// The factor on the duration of a step.
     pub slower: f64,
+    /// The fraction by which the centre of mass moves nearer to the middle of the supporting foot, and the swinging
+    /// foot is more level.
+    pub nearer: f64,
     /// The factor on the lateral distance between the feet.
     pub wider: f64,
     /// The factor on the heights of the hip axes above the floor.
@@ -59,17 +63,17 @@ pub struct Steadier {
 }
 
 /// The changes that `--repair` tries in order.
-pub const REPAIRS: [Steadier; 5] = [
-    Steadier { slower: 1.25, wider: 1.0, lower: 1.0 },
-    Steadier { slower: 1.5, wider: 1.0, lower: 1.0 },
-    Steadier { slower: 1.5, wider: 1.1, lower: 1.0 },
-    Steadier { slower: 1.5, wider: 1.1, lower: 0.97 },
-    Steadier { slower: 2.0, wider: 1.2, lower: 0.95 },
+pub const REPAIRS: [Steadier; 4] = [
+    Steadier { slower: 1.25, nearer: 0.6, wider: 1.0, lower: 1.0 },
+    Steadier { slower: 1.5, nearer: 0.6, wider: 1.1, lower: 0.98 },
+    Steadier { slower: 1.75, nearer: 1.0, wider: 1.1, lower: 0.96 },
+    Steadier { slower: 2.0, nearer: 1.0, wider: 1.2, lower: 0.94 },
 ];
 
 impl fmt::Display for Steadier {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "steps {} times as slow", self.slower)?;
+        write!(f, "steps that last {} times as long", self.slower)?;
+        write!(f, ", the centre of mass {:.0} % nearer to the middle of the supporting foot", 1e2 * self.nearer)?;
         if self.wider > 1.0 {
             write!(f, ", feet {} times as far apart", self.wider)?;
         }
@@ -147,16 +151,22 @@ impl GaitDefaults {
         GaitDefaults { most_turn: self.most_turn * ease, length: self.length * (1.0 + ease) / 2.0, ..self }
     }
 
-    /// Same as `self`, but slower, wider and lower. The centre of mass keeps its distance from the supporting foot.
+    /// Same as `self`, but with these changes. The centre of mass keeps its distance from the supporting foot, or
+    /// comes nearer to it.
     #[must_use]
     pub fn steadier(&self, biped: &Biped, by: &Steadier) -> Self {
         let half_width = self.half_width(biped);
-        let heights = self.hip_heights.iter().map(|height| height * by.lower).collect();
+        let from_foot = (half_width - self.amplitude) * (1.0 - by.nearer);
+        let gait = match self.gait {
+            Gait::OneStep(own) => Gait::OneStep(OneStep { pitch: own.pitch * (1.0 - by.nearer), ..own }),
+            gait => gait,
+        };
         GaitDefaults {
+            gait,
             period: self.period * by.slower,
             half_width: Some(half_width * by.wider),
-            amplitude: self.amplitude + half_width * (by.wider - 1.0),
-            hip_heights: Cow::Owned(heights),
+            amplitude: half_width * by.wider - from_foot,
+            hip_heights: self.hip_heights.iter().map(|height| height * by.lower).collect(),
             ..self.clone()
         }
     }

@@ -119,7 +119,11 @@ impl Stabilizer {
         self.ahead += dt * (self.speed - 1.0);
         let time = state.time + self.ahead;
         let mut plan = self.walk.at(time);
-        self.steps.displace(&self.walk, time, dt, &mut plan);
+        let weight = self.walker.biped.model.mass() * GRAVITY;
+        let is_pressed = state.soles.map(|sole| sole.force.z > PRESSED * weight);
+        let torso = state.orientation * self.walker.biped.torso_from_root.rotation.inverse();
+        self.steps.measure(yaw(&torso), yaw(&plan.posture.world_from_torso.rotation), dt);
+        self.steps.displace(&self.walk, (time, dt), (is_pressed, self.gains.heading), &mut plan);
         self.floor.incline(&mut plan);
         let rate = (GRAVITY / plan.height()).sqrt();
         let seen = self.observer.estimate(&self.walker.biped, &plan, state, (dt, rate, self.gains.observer))?;
@@ -299,6 +303,12 @@ impl Stabilizer {
         self.before = Some((time, posture.q.clone()));
         JointTargets { positions: posture.q, velocities }
     }
+}
+
+/// The heading of the x axis \[rad\].
+fn yaw(orientation: &UnitQuaternion<f64>) -> f64 {
+    let ahead = orientation * Vector3::x();
+    ahead.y.atan2(ahead.x)
 }
 
 /// Half of the width of the left sole \[m\].

@@ -116,6 +116,14 @@ impl PlannedWalk {
         Some(self.times[row])
     }
 
+    /// How long a foot that swings at `time` will swing \[s\], and the fraction of its whole swing.
+    pub fn swing_left(&self, side: usize, time: f64) -> Option<(f64, f64)> {
+        let landing = self.landing(side, time)?;
+        let from = self.times.partition_point(|own| *own <= time);
+        let lift = (0..from).rev().find(|row| self.rows[*row].stands[side]).map_or(0.0, |row| self.times[row]);
+        Some((landing - time, (landing - time) / (landing - lift)))
+    }
+
     /// The next time at which a foot leaves the floor, and its side.
     pub fn lift(&self, time: f64) -> Option<(f64, usize)> {
         let from = self.times.partition_point(|own| *own <= time);
