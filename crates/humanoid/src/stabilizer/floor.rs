@@ -11,7 +11,7 @@ use crate::gait::{Biped, GRAVITY};
 const RATE: f64 = 2.0;
 /// A sole is flat on the floor if it carries this fraction of the weight, and its centre of pressure is so far from its border, as a fraction of half of its
 /// size: a sole that tilts about an edge has its pressure there.
-const CARRIES: f64 = 0.2;
+const CARRIES: f64 = 0.15;
 const INSIDE: f64 = 0.1;
 /// The greatest slope: 10 degrees.
 const STEEPEST: f64 = 0.18;
@@ -33,7 +33,7 @@ impl Floor {
         }
     }
 
-    /// Moves the estimate towards the inclination of the soles that are flat on the floor.
+    /// Moves the estimate towards the inclination of the soles while both are flat on the floor. One sole alone may tilt with a robot that tips.
     pub fn observe(&mut self, biped: &Biped, plan: &Instant, seen: &Estimate, dt: f64) {
         let weight = biped.model.mass() * GRAVITY;
         let is_flat = |side: usize| {
@@ -42,13 +42,15 @@ impl Floor {
             let is_inside = at == at.sup(&(low + room)).inf(&(high - room));
             plan.stands[side] && seen.pressed[side] > CARRIES * weight && is_inside
         };
-        let flat: Vec<usize> = (0..2).filter(|side| is_flat(*side)).collect();
-        let pressed: f64 = flat.iter().map(|side| seen.pressed[*side]).sum();
-        for side in flat {
-            let normal = seen.soles[side].rotation * Vector3::z();
-            let error = -normal.xy() / normal.z - self.slope;
-            self.slope += (RATE * dt).min(1.0) * seen.pressed[side] / pressed * error;
+        if !(is_flat(0) && is_flat(1)) {
+            return;
         }
+        let rise = |side: usize| {
+            let normal = seen.soles[side].rotation * Vector3::z();
+            -normal.xy() / normal.z
+        };
+        let mean = (rise(0) * seen.pressed[0] + rise(1) * seen.pressed[1]) / (seen.pressed[0] + seen.pressed[1]);
+        self.slope += (RATE * dt).min(1.0) * (mean - self.slope);
         self.slope = self.slope.map(|rise| rise.clamp(-STEEPEST, STEEPEST));
     }
 }
