@@ -33,6 +33,10 @@ GRAVITY = 9.80665
 # l^2. For NAO (m g l = 10.3 Nm) they are 308 Nm/rad, 2.2 Nms/rad and 0.043 kg m^2.
 SERVO = "30,1.5,0.21"
 LENGTH = 0.63
+# The least acceleration of a motor's own inertia by its greatest torque, where that is described [rad/s^2]: with 0.21 m l^2 the ankle of TALOS could
+# accelerate itself by 12 rad/s^2 only, less than a swinging leg needs. Such an armature is at least LEAST, in m l^2.
+ACCELERATION = 100.0
+LEAST = 0.05
 # The moments of inertia of a body that is described as a point, as a fraction of its mass times l^2. The value is that
 # of TEO's trunk.
 POINT = 0.2
@@ -117,7 +121,13 @@ class Robot:
             dof = model.jnt_dofadr[model.actuator_trnid[actuator, 0]]
             model.actuator_gainprm[actuator, 0] = self.stiffness
             model.actuator_biasprm[actuator, 1:3] = -self.stiffness, -self.damping
-            model.dof_armature[dof] = max(model.dof_armature[dof], self.armature)
+            model.dof_armature[dof] = max(model.dof_armature[dof], self.rotor(actuator, LEAST * mass * length**2))
+
+    def rotor(self, actuator, least):
+        """The inertia of a motor at its joint."""
+        if not self.model.actuator_forcelimited[actuator]:
+            return self.armature
+        return min(self.armature, max(self.model.actuator_forcerange[actuator, 1] / ACCELERATION, least))
 
     def command(self, time):
         """Sets the commands of the servos: those of the feedback, or by linear interpolation between rows."""

@@ -30,9 +30,11 @@ Metres, and degrees for headings; radians in files. The path is that of the midd
 has room for the robot at every heading; if there is no such path, room for the core of its body.
 
 Footsteps follow the path as far as legs and limits permit; where that fails, they are searched.
-Each step is a walk of its own by one step goal, checked at every sample: soles on free cells,
-distance of the body from obstacles, joints within limits and speeds, the zero moment point within
-its margin.
+Each step is first planned as a walk of its own by one step goal, checked at every sample: soles on
+free cells, distance of the body from obstacles, joints within limits and speeds, the zero moment
+point within its margin. Then preview control walks all footsteps without rests between them, with
+the same checks. Where that fails even slowly, the robot rests after each step, with a note; so it
+does by --gait osg.
 
 --verify and --repair simulate the walk with MuJoCo, without the obstacles. The exit status is 5 if it
 falls, and nothing is written.
@@ -62,7 +64,7 @@ pub struct Arguments {
     /// The length and width of the body, seen from above (default: from the shapes of the description) [m]
     #[arg(long, value_name = "LENGTH,WIDTH", value_delimiter = ',', num_args = 1)]
     body: Option<Vec<f64>>,
-    /// The gait [default: the robot's first gait by one step goal]
+    /// The gait: preview walks without rests between the steps, a gait by one step goal rests after each [default: preview]
     #[arg(long, value_enum)]
     gait: Option<GaitName>,
     /// Start and end in the crouch, without lowering and rising
@@ -101,11 +103,18 @@ pub(super) enum MethodName {
 /// A plan, or the proof that there is no path.
 type Found = std::result::Result<Plan, Blocked>;
 
-/// A pilot, what it found, and the time in which it did \[ms\].
-type Navigated = (Pilot, Found, f64);
+/// The result of a pilot.
+struct Navigated {
+    pilot: Pilot,
+    found: Found,
+    /// The time of planning \[ms\].
+    milliseconds: f64,
+    /// Why the robot rests after each step, unless that was requested.
+    note: Option<String>,
+}
 
-fn walk_of((_, found, _): &Navigated) -> Option<&Walk> {
-    found.as_ref().ok().map(|plan| &plan.walk)
+fn walk_of(navigated: &Navigated) -> Option<&Walk> {
+    navigated.found.as_ref().ok().map(|plan| &plan.walk)
 }
 
 /// Plans the walk and writes the requested files.
@@ -120,11 +129,15 @@ pub fn run(arguments: &Arguments) -> Outcome {
         let pilot = arguments.pilot(&named, walker, &session.watch)?;
         let begun = Instant::now();
         let feet = start.feet(pilot.half_width());
-        let found = Plan::find(&pilot, &floor, feet, goal.by(arguments.method.method()), &session.watch)?;
-        Ok((pilot, found, 1e3 * begun.elapsed().as_secs_f64()))
+        let mut found = Plan::find(&pilot, &floor, feet, goal.by(arguments.method.method()), &session.watch)?;
+        let note = match (&mut found, arguments.blended(walker)?) {
+            (Ok(plan), Some(gait)) => blend(plan, (&pilot, &floor), &gait, &session.watch)?,
+            _ => None,
+        };
+        Ok(Navigated { pilot, found, milliseconds: 1e3 * begun.elapsed().as_secs_f64(), note })
     };
     let verified = arguments.verification.planned(&named, &session.watch, plan, walk_of)?;
-    let (pilot, found, milliseconds) = verified.plan;
+    let Navigated { pilot, found, milliseconds, note } = verified.plan;
     drop(session);
     match &found {
         Ok(plan) => arguments.write(&output, &pilot, &floor, plan)?,
@@ -134,7 +147,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
             }
         }
     }
-    let notes = [named.robot.parts().notes.clone(), verified.notes].concat();
+    let notes = [named.robot.parts().notes.clone(), note.into_iter().collect(), verified.notes].concat();
     if arguments.json {
         let mut json_report = arguments.json_report(&pilot, &found, milliseconds);
         json_report["notes"] = notes.into();
@@ -162,8 +175,22 @@ impl Arguments {
             Some(_) => return Err(bad("--body takes two numbers: --body 0.3,0.5")),
             None => Body::new(&named.robot, &walker.biped, &named.meshes)?,
         };
-        let defaults = steps(&walker.gaits, self.gait)?;
-        Pilot::new(walker.clone(), defaults, body, !self.crouched, watch)
+        let blended = self.blended(walker)?;
+        let wanted = self.gait.filter(|_| blended.is_none());
+        let defaults = steps(&walker.gaits, wanted)?;
+        let pilot = Pilot::new(walker.clone(), defaults, body, !self.crouched, watch)?;
+        Ok(match blended {
+            Some(gait) => pilot.for_gait(&gait),
+            None => pilot,
+        })
+    }
+
+    /// The parameters of the gait without rests, unless a gait by one step goal is requested.
+    fn blended(&self, walker: &Walker) -> Result<Option<GaitDefaults>> {
+        match self.gait {
+            None | Some(GaitName::Preview) => walker::defaults(&walker.gaits, Some(GaitName::Preview)).map(Some),
+            Some(_) => Ok(None),
+        }
     }
 
     /// The output; it replaces neither the robot nor the map.
@@ -198,6 +225,7 @@ impl Arguments {
                 json_report["wide"] = plan.course.is_wide.into();
                 json_report["steps"] = plan.walk.schedule.route.steps.iter().map(step).collect();
                 json_report["seconds"] = summary.duration.into();
+                json_report["rests"] = summary.gait.is_one_step().into();
                 json_report["margin"] = summary.margin.value.into();
                 let refused = |refusal: &Refusal| {
                     let mut value = step(&refusal.footstep);
@@ -224,6 +252,26 @@ impl MethodName {
             MethodName::M3r => Method::M3r,
             MethodName::Potential => Method::Potential,
         }
+    }
+}
+
+/// Replaces the walk of a plan by one without rests between its steps. Where none is feasible, the walk stays and the
+/// result is a note.
+fn blend(
+    plan: &mut Plan,
+    (pilot, floor): (&Pilot, &Floor),
+    gait: &GaitDefaults,
+    watch: &Watch,
+) -> Result<Option<String>> {
+    if plan.walk.schedule.route.steps.is_empty() {
+        return Ok(None);
+    }
+    match plan.blended(pilot, floor, gait, watch)? {
+        Ok(walk) => {
+            plan.walk = walk;
+            Ok(None)
+        }
+        Err(reason) => Ok(Some(format!("the robot rests after each step, because preview control fails: {reason}"))),
     }
 }
 

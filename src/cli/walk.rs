@@ -44,8 +44,9 @@ A phase that would be unstable or too fast is slowed down. Where that does not h
 are shortened. A walk that cannot be made stable is an error. --verify and --repair simulate it with
 MuJoCo (`groebot simulate --help`); the exit status is 5 if it falls, and nothing is written.
 
-Gaits: nao sine, preview, osg; rh0 rh0, rh0-sim, rh0-real, osg; teo osg; others osg, preview. The
-first is the default (rh0-sim with --thesis); others walk by preview where osg is refused.
+Gaits: nao sine, preview, osg; rh0 rh0, rh0-sim, rh0-real, osg, preview; teo osg, preview; others
+preview, osg. The first is the default (rh0-sim with --thesis); others walk by osg where preview is
+refused.
 
 For a description, the soles are searched (--left, --right), and the solvers of the legs are derived:
 six joints each, or five, from the root link to the links of the soles. Joints that move both legs

@@ -107,7 +107,8 @@ pub struct RequestArguments {
 }
 
 impl RequestArguments {
-    /// The walk by the given gait, or by the default one. A described robot walks by its first feasible gait.
+    /// The walk by the given gait, or by the default one. A described robot walks by preview control, where that is
+    /// refused by one step goal.
     ///
     /// # Errors
     /// As [`plan_at`]; [`ErrorKind::BadValue`] for parameters that the gait does not have.
@@ -118,13 +119,18 @@ impl RequestArguments {
             let request = |height, ease| self.request(&defaults.clone().eased(ease), biped, height);
             plan_at((biped, &walker.legs), self.hip_height, &defaults.hip_heights, request, watch)
         };
-        let first = planned(walker::defaults(&walker.gaits, self.gait)?);
-        let is_refused = first.as_ref().is_err_and(|error| error.kind() == ErrorKind::BadValue);
-        if self.gait.is_some() || !is_described || !is_refused {
-            return first;
+        if self.gait.is_some() || !is_described {
+            return planned(walker::defaults(&walker.gaits, self.gait)?);
         }
-        let others = walker.gaits.iter().skip(1);
-        others.map(|(_, gait)| planned(gait.clone())).find(Result::is_ok).unwrap_or(first)
+        let (blended, resting): (Vec<_>, Vec<_>) = walker.gaits.iter().partition(|(_, own)| own.gait == Gait::Preview);
+        let mut walk = Err(bad("the robot has no gait".into()));
+        for (_, gait) in blended.into_iter().chain(resting) {
+            walk = planned(gait.clone());
+            if !walk.as_ref().is_err_and(|error| error.kind() == ErrorKind::BadValue) {
+                break;
+            }
+        }
+        walk
     }
 
     /// The parameters of the gait `defaults`, with the given ones replaced.

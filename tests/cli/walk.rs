@@ -40,7 +40,7 @@ fn turns_files_of_footsteps_and_preview_control_are_walked() {
     let reported = succeed(&["walk", "nao", "--length", "0", "--turn=-40", "--first", "right"]);
     assert!(reported.contains("turn -40.0 deg"), "{reported}");
     let reported = succeed(&["walk", "nao", "--gait", "preview"]);
-    assert!(reported.contains("preview control") && reported.contains("5.3 cm/s"), "{reported}");
+    assert!(reported.contains("preview control") && reported.contains("8.4 cm/s"), "{reported}");
     let reported = succeed(&["walk", "nao", "--sole", "published", "--steps", "2"]);
     assert!(reported.contains("2 steps"), "{reported}");
     assert_eq!(succeed(&["walk", "nao", "--steps", "1", "--quiet"]), "");

@@ -4,6 +4,7 @@ use nalgebra::{Isometry3, Point2, Translation3, UnitQuaternion, Vector2, Vector3
 
 use super::distribution::{Part, distribute, within};
 use super::estimate::{Estimate, Observer, PRESSED};
+use super::floor::Floor;
 use super::gains::StabilizerGains;
 use super::planned::{Instant, PlannedWalk};
 use super::sag::static_torques;
@@ -26,9 +27,11 @@ const RETURN: f64 = 0.1;
 const FADE: f64 = 2.0;
 /// The least distance of the desired ZMP from the border of the support, as a fraction of half of the sole's width.
 const MARGIN: f64 = 0.15;
-/// How much the torso is lowered at first where a leg is too short, and after which it is lowered no more, as fractions of the height of the centre of mass.
-const LOWER: f64 = 0.001;
+/// How much higher the torso could be where a leg is stretched most, the most by which it is lowered for that, and the accuracy of this, as fractions of the
+/// height of the centre of mass.
+const ROOM: f64 = 0.002;
 const LOWEST: f64 = 0.1;
+const EXACT: f64 = 1e-5;
 /// Longest time between two steps of the law that is integrated \[s\].
 const MOST_STEP: f64 = 0.05;
 /// The first change of the heading of a torso whose legs share an actuator, and the difference at which they agree \[rad\].
@@ -52,6 +55,7 @@ pub struct Stabilizer {
     /// The rotation of the torso about x and y of its heading \[rad\].
     lean: Vector2<f64>,
     steps: Steps,
+    floor: Floor,
     /// The displacement of the torso \[m\].
     sway: Vector2<f64>,
     /// The stiffness of the joints' position controllers \[N m/rad\].
@@ -81,6 +85,7 @@ impl Stabilizer {
             last,
             before: None,
             steps: Steps::default(),
+            floor: Floor::default(),
             integral: Vector2::zeros(),
             tilts: [Vector2::zeros(); 2],
             lean: Vector2::zeros(),
@@ -121,8 +126,10 @@ impl Stabilizer {
         let torso = state.orientation * self.walker.biped.torso_from_root.rotation.inverse();
         self.steps.measure(yaw(&torso), yaw(&plan.posture.world_from_torso.rotation), dt);
         self.steps.displace(&self.walk, (time, dt), (is_pressed, self.gains.heading), &mut plan);
+        self.floor.incline(&mut plan);
         let rate = (GRAVITY / plan.height()).sqrt();
         let seen = self.observer.estimate(&self.walker.biped, &plan, state, (dt, rate, self.gains.observer))?;
+        self.floor.observe(&self.walker.biped, &plan, &seen, dt);
         let parts = self.balance(&plan, &seen, rate, (time, dt));
         self.turn_soles(&plan, &seen, &parts, dt);
         self.straighten(&plan, &seen, dt);
@@ -239,16 +246,28 @@ impl Stabilizer {
         let sway = Translation3::new(self.sway.x, self.sway.y, 0.0);
         let torso = Pose::from_parts(sway * planned.translation, lean * planned.rotation);
         let last = Posture { world_from_torso: torso, q: self.held(plan) };
-        // A stretched leg cannot reach a corrected sole: the torso is lowered.
-        let mut lower = 0.0;
-        loop {
-            let torso = Translation3::new(0.0, 0.0, -lower) * torso;
-            match self.stand(&soles, &torso, &last) {
-                Ok(posture) => return Ok((posture, soles)),
-                Err(error) if lower > LOWEST * plan.height() => return Err(error),
-                Err(_) => lower = 2.0 * lower + LOWER * plan.height(),
+        let lowered = |by: f64| self.stand(&soles, &(Translation3::new(0.0, 0.0, -by) * torso), &last);
+        let lower = Self::lowering(plan.height(), |by| lowered(by).is_ok());
+        Ok((lowered(lower)?, soles))
+    }
+
+    /// How much the torso is lowered: a stretched leg cannot reach a corrected sole. With this much the soles would be in reach of a torso that is higher by a
+    /// little, so that knees do not become straight. `reaches` says whether they are in reach with the torso lowered by so much.
+    fn lowering(height: f64, reaches: impl Fn(f64) -> bool) -> f64 {
+        let (room, most) = (ROOM * height, LOWEST * height);
+        if reaches(-room) || !reaches(most) {
+            return 0.0;
+        }
+        let (mut short, mut enough) = (-room, most);
+        while enough - short > EXACT * height {
+            let middle = 0.5 * (short + enough);
+            if reaches(middle) {
+                enough = middle;
+            } else {
+                short = middle;
             }
         }
+        enough + room
     }
 
     /// The last joint values of the legs, and the planned ones of all other joints.

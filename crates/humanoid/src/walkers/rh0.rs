@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::posture;
 use super::printed::{FromTheFoot, Printed, RH0_LEFT_LEG, RH0_RIGHT_LEG};
 use crate::Result;
-use crate::gait::{Biped, Gait, GaitDefaults, Laws, Legs, OneStep, Walker};
+use crate::gait::{Biped, Gait, GaitDefaults, Laws, Legs, OneStep, Walker, preview_defaults};
 use groebot_robot::model::Meshes;
 use groebot_robot::robots::rh0;
 
@@ -43,8 +43,13 @@ pub fn rh0_walker() -> Result<Walker> {
     let pair = |(follower, leader): &(&str, &str)| Ok((biped.joint(follower)?, biped.joint(leader)?));
     let coordinated = COORDINATED.iter().map(pair).collect::<Result<_>>()?;
     let legs = Legs::new(&biped, [Arc::new(left), Arc::new(right)], crouch)?.with_coordinated(coordinated);
-    let gaits =
-        vec![("rh0", RH0_STEADY), ("rh0-sim", RH0_SIMULATION), ("rh0-real", RH0_EXPERIMENT), ("osg", RH0_GENERIC)];
+    let gaits = vec![
+        ("rh0", RH0_STEADY),
+        ("rh0-sim", RH0_SIMULATION),
+        ("rh0-real", RH0_EXPERIMENT),
+        ("osg", RH0_GENERIC),
+        ("preview", preview_defaults(&biped)),
+    ];
     Ok(Walker { biped, legs, gaits })
 }
 
