@@ -72,7 +72,7 @@ fn all_walks_of_the_documentation_stand() {
     commands().iter().for_each(|command| stands(command));
 }
 
-/// A walk that stands in open loop on paper, and falls in physics: long steps with the toes down.
+/// A plan within its margins that falls in physics: long steps with the toes down.
 const FALLS: &str = "walk rh0 --gait rh0-sim --steps 8 --length 0.2 --verify";
 
 /// A walk that stands is written; without MuJoCo, or if it falls, nothing is. What falls is repaired on request.
