@@ -11,7 +11,7 @@ ms, torques. The motor parameters and the time of the fall are written to standa
 With --feedback, the names of the joints and the nominal stiffness of their motors are first written to standard output, as JSON. Then, each PERIOD, the state is one line of numbers there: time
 [s], joint values, orientation of the base (quaternion xyzw, from the base to a world whose z axis is vertical), its angular velocity in its own frame
 [rad/s], and for the left and the right sole force [N] and moment [N m] in the frame of the sole. A line of standard input is the answer: the targets of
-the joints, then their velocities.
+the joints, then their velocities, or `lost` if the feedback finds no posture: the robot then falls.
 """
 
 import argparse
@@ -33,6 +33,9 @@ GRAVITY = 9.80665
 # l^2. For NAO (m g l = 10.3 Nm) they are 308 Nm/rad, 2.2 Nms/rad and 0.043 kg m^2.
 SERVO = "30,1.5,0.21"
 LENGTH = 0.63
+# The time in which a motor without load reaches its velocity limit with the torque of its effort limit [s]: its inertia is effort times this / velocity. It is
+# 0.006 s for Berkeley Humanoid, 0.01 s for Unitree H1 and 0.03 s for NAO, by their published inertias, efforts and velocities.
+MOTOR_TIME = 0.015
 # The moments of inertia of a body that is described as a point, as a fraction of its mass times l^2. The value is that
 # of TEO's trunk.
 POINT = 0.2
@@ -62,7 +65,10 @@ class Robot:
     """The model at the first row of a walk."""
 
     def __init__(self, given, walk):
-        model = mujoco.MjModel.from_xml_path(given.robot)
+        try:
+            model = mujoco.MjModel.from_xml_path(given.robot)
+        except ValueError as error:
+            sys.exit(" ".join(str(error).split()))
         self.model, self.walk, self.latency = model, walk, given.latency
         self.torso, self.height = 1, walk["base_z"][0]
         roll, pitch = (math.radians(angle) for angle in given.slope)
@@ -96,7 +102,7 @@ class Robot:
             [g for g in range(model.ngeom) if model.geom_bodyid[g] in bodies and model.geom_contype[g]]
             for bodies in self.bodies
         ]
-        self.wrench = numpy.zeros(6)
+        self.wrench, self.lost = numpy.zeros(6), False
         self.weight = model.body_subtreemass[0] * GRAVITY
         self.soles = numpy.reshape(given.soles, (2, 7)) if given.soles else numpy.tile([0.0, 0, 0, 0, 0, 0, 1], (2, 1))
         self.push, self.feedback = given.push, Feedback(self, given) if given.feedback else None
@@ -117,7 +123,17 @@ class Robot:
             dof = model.jnt_dofadr[model.actuator_trnid[actuator, 0]]
             model.actuator_gainprm[actuator, 0] = self.stiffness
             model.actuator_biasprm[actuator, 1:3] = -self.stiffness, -self.damping
-            model.dof_armature[dof] = max(model.dof_armature[dof], self.armature)
+            model.dof_armature[dof] = max(model.dof_armature[dof], self.inertia(actuator))
+
+    def inertia(self, actuator):
+        """The inertia of a motor at its joint: by the limits of its effort and its velocity (`user`) where there are both, else by the robot's size."""
+        model = self.model
+        effort = model.actuator_forcerange[actuator, 1] if model.actuator_forcelimited[actuator] else 0.0
+        speed = model.actuator_user[actuator, 0] if model.nuser_actuator else 0.0
+        if effort == 0.0 or speed == 0.0:
+            return self.armature
+        # The servo's own frequency is at most 1 / (2 STEP): MuJoCo integrates this stably.
+        return min(max(MOTOR_TIME * effort / speed, self.stiffness * (2 * STEP) ** 2), self.armature)
 
     def command(self, time):
         """Sets the commands of the servos: those of the feedback, or by linear interpolation between rows."""
@@ -144,7 +160,7 @@ class Robot:
 
     def fell(self):
         tilted = self.data.xmat[self.torso][8] < math.cos(MOST_TILT)
-        return bool(tilted or self.data.qpos[2] < LEAST_HEIGHT * self.height)
+        return bool(self.lost or tilted or self.data.qpos[2] < LEAST_HEIGHT * self.height)
 
     def frame(self, side):
         """Origin and axes of a sole in the world."""
@@ -220,6 +236,9 @@ class Feedback:
         line = sys.stdin.readline()
         if not line:
             sys.exit("the feedback has ended")
+        if line == "lost\n":
+            robot.lost = True
+            return numpy.concatenate([robot.data.ctrl, 0 * robot.data.ctrl])
         return numpy.array(line.split(), dtype=float)
 
     def disturbed(self, joints, base, rate, forces):
@@ -322,6 +341,8 @@ def play(robot, film=None):
                 return table, start + (index + 1) * step
             if film:
                 film(robot, start + (index + 1) * step)
+        if robot.data.warning[mujoco.mjtWarning.mjWARN_BADQACC].number:
+            sys.exit(f"the simulation is unstable at {end:.2f} s; give --servo less stiffness or more inertia")
         if row + 1 < len(times):
             mujoco.mj_kinematics(robot.model, robot.data)
             table.add(end, numpy.mean(pressures[-round(WINDOW / STEP) :], axis=0))
