@@ -18,6 +18,7 @@ import argparse
 import csv
 import json
 import math
+import os
 import sys
 
 try:
@@ -33,8 +34,7 @@ GRAVITY = 9.80665
 # l^2. For NAO (m g l = 10.3 Nm) they are 308 Nm/rad, 2.2 Nms/rad and 0.043 kg m^2.
 SERVO = "30,1.5,0.21"
 LENGTH = 0.63
-# The time in which a motor without load reaches its velocity limit with the torque of its effort limit [s]: its inertia is effort times this / velocity. It is
-# 0.006 s for Berkeley Humanoid, 0.01 s for Unitree H1 and 0.03 s for NAO, by their published inertias, efforts and velocities.
+# The time in which a motor without load reaches its velocity limit with its effort limit [s]: its inertia is effort times this / velocity.
 MOTOR_TIME = 0.015
 # The moments of inertia of a body that is described as a point, as a fraction of its mass times l^2. The value is that
 # of TEO's trunk.
@@ -65,10 +65,7 @@ class Robot:
     """The model at the first row of a walk."""
 
     def __init__(self, given, walk):
-        try:
-            model = mujoco.MjModel.from_xml_path(given.robot)
-        except ValueError as error:
-            sys.exit(" ".join(str(error).split()))
+        model = mujoco.MjModel.from_xml_path(given.robot)
         self.model, self.walk, self.latency = model, walk, given.latency
         self.torso, self.height = 1, walk["base_z"][0]
         roll, pitch = (math.radians(angle) for angle in given.slope)
@@ -110,11 +107,10 @@ class Robot:
     def mount(self, servo, gain):
         """Adds the motor of each joint."""
         model = self.model
-        mass, length = model.body_subtreemass[self.torso], LENGTH * self.height
+        self.points, mass, length = [], model.body_subtreemass[self.torso], LENGTH * self.height
         self.stiffness = servo[0] * mass * GRAVITY * length * gain
         self.damping = servo[1] * mass * math.sqrt(GRAVITY) * length**1.5
         self.armature = servo[2] * mass * length**2
-        self.points = []
         for body in range(1, model.nbody):
             if model.body_mass[body] > 0.01 * mass and max(model.body_inertia[body]) < 1e-6 * mass * length**2:
                 model.body_inertia[body] = POINT * model.body_mass[body] * length**2
@@ -128,10 +124,10 @@ class Robot:
     def inertia(self, actuator):
         """The inertia of a motor at its joint: by the limits of its effort and its velocity (`user`) where there are both, else by the robot's size."""
         model = self.model
-        effort = model.actuator_forcerange[actuator, 1] if model.actuator_forcelimited[actuator] else 0.0
         speed = model.actuator_user[actuator, 0] if model.nuser_actuator else 0.0
-        if effort == 0.0 or speed == 0.0:
+        if speed == 0.0 or not model.actuator_forcelimited[actuator]:
             return self.armature
+        effort = model.actuator_forcerange[actuator, 1]
         # The servo's own frequency is at most 1 / (2 STEP): MuJoCo integrates this stably.
         return min(max(MOTOR_TIME * effort / speed, self.stiffness * (2 * STEP) ** 2), self.armature)
 
@@ -192,12 +188,11 @@ class Robot:
             if self.floor not in (one, other):
                 continue
             mujoco.mj_contactForce(self.model, self.data, index, self.wrench)
-            force = float(self.wrench[0])
             for place, part in enumerate((1.0, x, y)):
-                sums[place] += force * part
+                sums[place] += float(self.wrench[0]) * part
             foot = other if one == self.floor else one
             for side in (0, 1):
-                sums[3 + side] += force * (foot in self.shapes[side])
+                sums[3 + side] += float(self.wrench[0]) * (foot in self.shapes[side])
         return numpy.array(sums)
 
 
@@ -289,8 +284,7 @@ class Table:
         return ["time [s]"] + joints + poses + figures + torques
 
     def unit(self, name, turning, sliding):
-        slides = self.robot.model.joint(name).type[0] == mujoco.mjtJoint.mjJNT_SLIDE
-        return sliding if slides else turning
+        return sliding if self.robot.model.joint(name).type[0] == mujoco.mjtJoint.mjJNT_SLIDE else turning
 
     def add(self, time, pressure):
         robot, data = self.robot, self.robot.data
@@ -319,8 +313,7 @@ def turn_to_z(up):
 
 
 def xyzw(quaternion):
-    w, x, y, z = quaternion
-    return x, y, z, w
+    return *quaternion[1:], quaternion[0]
 
 
 def play(robot, film=None):
@@ -350,11 +343,9 @@ def play(robot, film=None):
 
 
 def filming(folder):
-    from pathlib import Path
-
     from PIL import Image
 
-    Path(folder).mkdir(parents=True, exist_ok=True)
+    os.makedirs(folder, exist_ok=True)
     made = {"renderer": None, "next": 0.0}
 
     def film(robot, time):
