@@ -131,11 +131,15 @@ def main() -> int:
     source, target = sys.argv[1:]
     model = mujoco.MjModel.from_xml_path(source)
     robot = ElementTree.Element("robot", name=Path(source).stem)
+    free = [model.jnt_bodyid[joint] for joint in range(model.njnt) if model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_FREE]
+    root = free[0] if free else 1
     for body in range(1, model.nbody):
+        if model.body_rootid[body] != root:
+            continue
         link = ElementTree.SubElement(robot, "link", name=model.body(body).name)
         inertial(link, model, body)
         collisions(link, model, body)
-        if model.body_parentid[body] != 0:
+        if body != root:
             joined(robot, model, body)
     ElementTree.indent(robot)
     ElementTree.ElementTree(robot).write(target, encoding="unicode")

@@ -113,8 +113,15 @@ def measured(robot: dict, args: argparse.Namespace, table: Table, folder: Path) 
         return row
     what = robot["id"]
     if "package" in robot:
-        row.package, row.version, row.file = robot["package"], metadata.version(robot["package"]), robot["urdf"]
-        what = locate(robot["package"], robot["urdf"])
+        row.package, row.version, row.file = robot["package"], metadata.version(robot["package"]), robot.get("urdf") or robot["mjcf"]
+        what = locate(robot["package"], row.file)
+    if "mjcf" in robot:
+        source, what = what, folder / f"{row.id}.urdf"
+        python = os.environ.get("GROEBOT_PYTHON", "python3")
+        status, _, errors, _ = called([python, "-B", HERE / "mjcf.py", source, what], args.time)
+        if status != 0:
+            row.plan, row.note = "refused", " ".join(errors.split())[:LONGEST_REASON]
+            return row
     walk = folder / f"{row.id}.json"
     status, _, errors, seconds = called([args.groebot, "walk", what, f"--goal={args.goal}", "-o", walk], args.time)
     row.seconds = f"{seconds:.1f}"

@@ -35,7 +35,10 @@ MuJoCo is an external program. GROEBOT_PYTHON is a Python that has it, by defaul
 Motors are position servos of one kind: torque = stiffness (command - q) - damping (q' - planned
 q'), within the efforts of the description, with an inertia at the joint. --servo gives stiffness in
 m g l, damping in m g^0.5 l^1.5 and inertia in m l^2, where m is the robot's mass and l is 0.63 of
-the height of its torso. A body that is described as a point has moments of inertia 0.2 m l^2.
+the height of its torso. A joint with limits of its effort and its velocity in the description has
+the inertia with which its motor reaches the velocity in 15 ms with the effort, but at most that by
+--servo, and at least k (4 ms)^2, so that MuJoCo integrates it stably. A body that is described as a
+point has moments of inertia 0.2 m l^2.
 
 A stabiliser reads joint values, orientation and angular velocity of the base and the forces on both
 soles at 200 Hz, and corrects the commands (docs/walking.md). It knows the motors' stiffness and the

@@ -163,6 +163,16 @@ fn feedback_keeps_walks_upright() {
     }
 }
 
+/// The swinging foot lands on the slope that the standing soles have. TEO falls where it lands level.
+#[test]
+fn feet_land_on_a_slope() {
+    let (_folder, file) = walked(&["teo", "--steps", "3", "--crouched"]);
+    for slope in ["3,0", "-3,0", "0,3", "0,-3"] {
+        let Some(stands) = reported(&[&file, "--slope", slope], 0) else { return };
+        assert!(stands["run"]["fell"].is_null(), "{slope}: {stands}");
+    }
+}
+
 /// RH0 Fig. 6-5: the speeds of the descent of 271 intervals, from the 268th on, within 0.001 rpm.
 #[test]
 fn the_rates_of_figure_6_5_come_out() {

@@ -32,6 +32,8 @@ const MARGIN: f64 = 0.15;
 const ROOM: f64 = 0.002;
 const LOWEST: f64 = 0.1;
 const EXACT: f64 = 1e-5;
+/// A greater change of a joint within one step of the law is a jump to another solution \[rad\].
+const JUMP: f64 = 0.5;
 /// Longest time between two steps of the law that is integrated \[s\].
 const MOST_STEP: f64 = 0.05;
 /// The first change of the heading of a torso whose legs share an actuator, and the difference at which they agree \[rad\].
@@ -247,18 +249,30 @@ impl Stabilizer {
         let torso = Pose::from_parts(sway * planned.translation, lean * planned.rotation);
         let last = Posture { world_from_torso: torso, q: self.held(plan) };
         let lowered = |by: f64| self.stand(&soles, &(Translation3::new(0.0, 0.0, -by) * torso), &last);
-        let lower = Self::lowering(plan.height(), |by| lowered(by).is_ok());
+        let lower = Self::lowering(plan.height(), |by| lowered(by).is_ok_and(|posture| self.is_near(&posture)));
         Ok((lowered(lower)?, soles))
+    }
+
+    /// Whether the legs come from their last posture without a jump: out of its reach, a leg may have solutions with another hip or ankle.
+    fn is_near(&self, posture: &Posture) -> bool {
+        let legs = self.walker.biped.feet.iter().flat_map(|foot| &foot.joints);
+        legs.into_iter().all(|joint| angle::difference(posture.q[*joint], self.last.q[*joint]).abs() < JUMP)
     }
 
     /// How much the torso is lowered: a stretched leg cannot reach a corrected sole. With this much the soles would be in reach of a torso that is higher by a
     /// little, so that knees do not become straight. `reaches` says whether they are in reach with the torso lowered by so much.
     fn lowering(height: f64, reaches: impl Fn(f64) -> bool) -> f64 {
         let (room, most) = (ROOM * height, LOWEST * height);
-        if reaches(-room) || !reaches(most) {
+        let (mut short, mut enough, mut step) = (-room, -room, room);
+        while !reaches(enough) {
+            if enough > most {
+                return 0.0;
+            }
+            (short, enough, step) = (enough, enough + step, 2.0 * step);
+        }
+        if enough == -room {
             return 0.0;
         }
-        let (mut short, mut enough) = (-room, most);
         while enough - short > EXACT * height {
             let middle = 0.5 * (short + enough);
             if reaches(middle) {
