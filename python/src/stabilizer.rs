@@ -1,9 +1,15 @@
 //! Feedback of a walk: `groebot.Stabilizer`.
 
-use groebot::control::{SoleForce, State};
+use std::path::Path;
+use std::sync::Arc;
+
+use groebot::control::{SoleForce, StabilizerGains, State};
+use groebot::gait::{Footing, LegSolver, Walker};
+use groebot::kinematics::Chain;
+use groebot::model::{Meshes, Robot};
 use groebot::motion::Trajectory;
 use groebot::robots::{self, Outline};
-use groebot::{Error, ErrorKind};
+use groebot::{Error, ErrorKind, Result};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -14,7 +20,7 @@ use crate::errors::{bad_value, raised};
 /// The tolerance of the length of a quaternion.
 const UNIT: f64 = 1e-6;
 
-/// Feedback for a planned walk of nao, rh0 or teo: joint targets from the measured state (docs/walking.md).
+/// Feedback for a planned walk of nao, rh0, teo or a described robot: joint targets from the measured state (docs/walking.md).
 #[pyclass(module = "groebot")]
 pub struct Stabilizer {
     stabilizer: groebot::control::Stabilizer,
@@ -23,26 +29,28 @@ pub struct Stabilizer {
 
 #[pymethods]
 impl Stabilizer {
-    /// `walk` is the CSV of `groebot walk` or `groebot navigate`, as text. `stiffness` is that of position controllers without integral action \[N m/rad\]: the
-    /// targets then contain the deflection of the joints under the weight.
+    /// `robot` is nao, rh0 or teo, or the path of a URDF or TOML, whose legs are derived first. `walk` is the CSV of `groebot walk` or `groebot navigate`, as text.
+    /// `stiffness` is that of position controllers without integral action \[N m/rad\]: the targets then contain the deflection of the joints under the weight.
+    /// `heading` is the fraction of the error of the heading that a footstep corrects, by default 0.5; 0 for an inertial sensor whose heading drifts.
     #[new]
-    #[pyo3(signature = (robot, walk, *, stiffness=None))]
-    fn new(robot: &str, walk: &str, stiffness: Option<f64>) -> PyResult<Self> {
-        let unknown = || {
-            let text = format!("`{robot}` is not a walking robot of groebot; give nao, rh0 or teo");
-            Error::new(ErrorKind::UnknownName, text)
-        };
+    #[pyo3(signature = (robot, walk, *, stiffness=None, heading=None))]
+    fn new(py: Python<'_>, robot: &str, walk: &str, stiffness: Option<f64>, heading: Option<f64>) -> PyResult<Self> {
         if stiffness.is_some_and(|stiffness| !(stiffness.is_finite() && stiffness > 0.0)) {
             return Err(bad_value("`stiffness` must be a positive number"));
         }
+        if heading.is_some_and(|heading| !(0.0..=1.0).contains(&heading)) {
+            return Err(bad_value("`heading` must be a number from 0 to 1"));
+        }
         let made = || {
-            let walker = robots::walker(robot, Outline::default()).ok_or_else(unknown)??;
+            let walker = walker(robot)?;
             let joints = walker.biped.joints.iter().map(|joint| joint.name.clone()).collect();
-            let stabilizer = groebot::control::Stabilizer::new(walker, &Trajectory::from_csv(walk)?)?;
+            let mut gains = StabilizerGains::default();
+            gains.heading = heading.unwrap_or(gains.heading);
+            let stabilizer = groebot::control::Stabilizer::new(walker, &Trajectory::from_csv(walk)?)?.gains(gains);
             let stabilizer = stiffness.into_iter().fold(stabilizer, groebot::control::Stabilizer::stiffness);
             Ok(Stabilizer { stabilizer, joints })
         };
-        made().map_err(|error| raised(&error))
+        py.detach(made).map_err(|error| raised(&error))
     }
 
     /// The names of the joints, in the order of `q` and of the targets.
@@ -86,6 +94,21 @@ impl Stabilizer {
         let targets = self.stabilizer.step(&state).map_err(|error| raised(&error))?;
         Ok((PyArray1::from_vec(py, targets.positions), PyArray1::from_vec(py, targets.velocities)))
     }
+}
+
+/// The walking robot of that name, or of a description.
+fn walker(robot: &str) -> Result<Walker> {
+    if let Some(walker) = robots::walker(robot, Outline::default()) {
+        return walker;
+    }
+    let path = Path::new(robot);
+    if !path.exists() {
+        let text = format!("`{robot}` is neither a file nor a walking robot of groebot; give a file, nao, rh0 or teo");
+        return Err(Error::new(ErrorKind::UnknownName, text));
+    }
+    let footing = Footing::find(&Robot::read(path)?, &Meshes::beside(path), [None, None], None)?;
+    let leg = |chain: &Chain| -> Result<LegSolver> { Ok(Arc::new(groebot::derive(chain)?.solver())) };
+    footing.walker(leg).map_err(|error| error.in_file(path))
 }
 
 /// The numbers of an array with this shape.

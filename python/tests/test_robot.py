@@ -159,12 +159,31 @@ def test_a_stabiliser_keeps_a_standing_robot_where_it_is(tmp_path):
     assert abs(moved["LAnklePitch"]) > 1e-3 and abs(moved["LAnklePitch"] - moved["RAnklePitch"]) < 1e-3
 
 
+def test_a_stabiliser_of_a_description_needs_its_walk(tmp_path):
+    """NAO's own URDF: the legs are derived, and standing is the same as by name."""
+    urdf = tmp_path / "nao.urdf"
+    assert groebot._groebot._run(["groebot", "export", "nao", "--to", "urdf", "-o", str(urdf)]) == 0
+    walk = groebot.navigate("nao", np.zeros((60, 60), bool), (1.5, 1.5), (1.0, 1.5))
+    soles = np.zeros((2, 6))
+    soles[:, 2] = 5.30575 * 9.80665 / 2
+    state = {"time": 0.0, "orientation": [0, 0, 0, 1], "angular_velocity": [0, 0, 0], "soles": soles}
+    named = groebot.Stabilizer("nao", walk.csv, heading=0)
+    described = groebot.Stabilizer(str(urdf), walk.csv)
+    by_name = dict(zip(walk.joints, walk.q[0]))
+    for stabilizer in (named, described):
+        q = np.array([by_name[joint] for joint in stabilizer.joints])
+        positions, _ = stabilizer.step(q=q, **state)
+        assert np.abs(positions - q).max() < 1e-2
+
+
 def test_states_that_are_none_are_refused():
     walk = groebot.navigate("nao", np.zeros((60, 60), bool), (1.5, 1.5), (1.0, 1.5))
     with pytest.raises(groebot.GroebotError, match="nao, rh0 or teo"):
         groebot.Stabilizer("asimo", walk.csv)
     with pytest.raises(groebot.BadValueError, match="stiffness"):
         groebot.Stabilizer("nao", walk.csv, stiffness=-1)
+    with pytest.raises(groebot.BadValueError, match="heading"):
+        groebot.Stabilizer("nao", walk.csv, heading=2)
     stabilizer = groebot.Stabilizer("nao", walk.csv)
     good = {"time": 0.0, "q": walk.q[0], "orientation": [0, 0, 0, 1], "angular_velocity": [0, 0, 0], "soles": np.zeros((2, 6))}
     for name, value in {"q": [1.0], "orientation": [1, 1, 1, 1], "angular_velocity": [np.nan, 0, 0], "soles": np.zeros(6), "time": np.inf}.items():

@@ -11,13 +11,14 @@ ms, torques. The motor parameters and the time of the fall are written to standa
 With --feedback, the names of the joints and the nominal stiffness of their motors are first written to standard output, as JSON. Then, each PERIOD, the state is one line of numbers there: time
 [s], joint values, orientation of the base (quaternion xyzw, from the base to a world whose z axis is vertical), its angular velocity in its own frame
 [rad/s], and for the left and the right sole force [N] and moment [N m] in the frame of the sole. A line of standard input is the answer: the targets of
-the joints, then their velocities.
+the joints, then their velocities, or `lost` if the feedback finds no posture: the robot then falls.
 """
 
 import argparse
 import csv
 import json
 import math
+import os
 import sys
 
 try:
@@ -33,6 +34,8 @@ GRAVITY = 9.80665
 # l^2. For NAO (m g l = 10.3 Nm) they are 308 Nm/rad, 2.2 Nms/rad and 0.043 kg m^2.
 SERVO = "30,1.5,0.21"
 LENGTH = 0.63
+# The time in which a motor without load reaches its velocity limit with its effort limit [s]: its inertia is effort times this / velocity.
+MOTOR_TIME = 0.015
 # The moments of inertia of a body that is described as a point, as a fraction of its mass times l^2. The value is that
 # of TEO's trunk.
 POINT = 0.2
@@ -96,7 +99,7 @@ class Robot:
             [g for g in range(model.ngeom) if model.geom_bodyid[g] in bodies and model.geom_contype[g]]
             for bodies in self.bodies
         ]
-        self.wrench = numpy.zeros(6)
+        self.wrench, self.lost = numpy.zeros(6), False
         self.weight = model.body_subtreemass[0] * GRAVITY
         self.soles = numpy.reshape(given.soles, (2, 7)) if given.soles else numpy.tile([0.0, 0, 0, 0, 0, 0, 1], (2, 1))
         self.push, self.feedback = given.push, Feedback(self, given) if given.feedback else None
@@ -104,11 +107,10 @@ class Robot:
     def mount(self, servo, gain):
         """Adds the motor of each joint."""
         model = self.model
-        mass, length = model.body_subtreemass[self.torso], LENGTH * self.height
+        self.points, mass, length = [], model.body_subtreemass[self.torso], LENGTH * self.height
         self.stiffness = servo[0] * mass * GRAVITY * length * gain
         self.damping = servo[1] * mass * math.sqrt(GRAVITY) * length**1.5
         self.armature = servo[2] * mass * length**2
-        self.points = []
         for body in range(1, model.nbody):
             if model.body_mass[body] > 0.01 * mass and max(model.body_inertia[body]) < 1e-6 * mass * length**2:
                 model.body_inertia[body] = POINT * model.body_mass[body] * length**2
@@ -117,7 +119,17 @@ class Robot:
             dof = model.jnt_dofadr[model.actuator_trnid[actuator, 0]]
             model.actuator_gainprm[actuator, 0] = self.stiffness
             model.actuator_biasprm[actuator, 1:3] = -self.stiffness, -self.damping
-            model.dof_armature[dof] = max(model.dof_armature[dof], self.armature)
+            model.dof_armature[dof] = max(model.dof_armature[dof], self.inertia(actuator))
+
+    def inertia(self, actuator):
+        """The inertia of a motor at its joint: by the limits of its effort and its velocity (`user`) where there are both, else by the robot's size."""
+        model = self.model
+        speed = model.actuator_user[actuator, 0] if model.nuser_actuator else 0.0
+        if speed == 0.0 or not model.actuator_forcelimited[actuator]:
+            return self.armature
+        effort = model.actuator_forcerange[actuator, 1]
+        # The servo's own frequency is at most 1 / (2 STEP): MuJoCo integrates this stably.
+        return min(max(MOTOR_TIME * effort / speed, self.stiffness * (2 * STEP) ** 2), self.armature)
 
     def command(self, time):
         """Sets the commands of the servos: those of the feedback, or by linear interpolation between rows."""
@@ -144,7 +156,7 @@ class Robot:
 
     def fell(self):
         tilted = self.data.xmat[self.torso][8] < math.cos(MOST_TILT)
-        return bool(tilted or self.data.qpos[2] < LEAST_HEIGHT * self.height)
+        return bool(self.lost or tilted or self.data.qpos[2] < LEAST_HEIGHT * self.height)
 
     def frame(self, side):
         """Origin and axes of a sole in the world."""
@@ -176,12 +188,11 @@ class Robot:
             if self.floor not in (one, other):
                 continue
             mujoco.mj_contactForce(self.model, self.data, index, self.wrench)
-            force = float(self.wrench[0])
             for place, part in enumerate((1.0, x, y)):
-                sums[place] += force * part
+                sums[place] += float(self.wrench[0]) * part
             foot = other if one == self.floor else one
             for side in (0, 1):
-                sums[3 + side] += force * (foot in self.shapes[side])
+                sums[3 + side] += float(self.wrench[0]) * (foot in self.shapes[side])
         return numpy.array(sums)
 
 
@@ -220,6 +231,9 @@ class Feedback:
         line = sys.stdin.readline()
         if not line:
             sys.exit("the feedback has ended")
+        if line == "lost\n":
+            robot.lost = True
+            return numpy.concatenate([robot.data.ctrl, 0 * robot.data.ctrl])
         return numpy.array(line.split(), dtype=float)
 
     def disturbed(self, joints, base, rate, forces):
@@ -270,8 +284,7 @@ class Table:
         return ["time [s]"] + joints + poses + figures + torques
 
     def unit(self, name, turning, sliding):
-        slides = self.robot.model.joint(name).type[0] == mujoco.mjtJoint.mjJNT_SLIDE
-        return sliding if slides else turning
+        return sliding if self.robot.model.joint(name).type[0] == mujoco.mjtJoint.mjJNT_SLIDE else turning
 
     def add(self, time, pressure):
         robot, data = self.robot, self.robot.data
@@ -300,8 +313,7 @@ def turn_to_z(up):
 
 
 def xyzw(quaternion):
-    w, x, y, z = quaternion
-    return x, y, z, w
+    return *quaternion[1:], quaternion[0]
 
 
 def play(robot, film=None):
@@ -322,6 +334,8 @@ def play(robot, film=None):
                 return table, start + (index + 1) * step
             if film:
                 film(robot, start + (index + 1) * step)
+        if robot.data.warning[mujoco.mjtWarning.mjWARN_BADQACC].number:
+            sys.exit(f"the simulation is unstable at {end:.2f} s; give --servo less stiffness or more inertia")
         if row + 1 < len(times):
             mujoco.mj_kinematics(robot.model, robot.data)
             table.add(end, numpy.mean(pressures[-round(WINDOW / STEP) :], axis=0))
@@ -329,11 +343,9 @@ def play(robot, film=None):
 
 
 def filming(folder):
-    from pathlib import Path
-
     from PIL import Image
 
-    Path(folder).mkdir(parents=True, exist_ok=True)
+    os.makedirs(folder, exist_ok=True)
     made = {"renderer": None, "next": 0.0}
 
     def film(robot, time):

@@ -119,7 +119,7 @@ impl Arguments {
         }
         let (robot, meshes) = moving::described(&self.input)?;
         robot.check().map_err(|error| error.in_file(&self.input))?;
-        let robot = if self.soles.is_given() { walker::with_soles(robot, &meshes, &self.soles)?.0 } else { robot };
+        let robot = if self.soles.is_given() { walker::with_soles(robot, &meshes, &self.soles)?.robot } else { robot };
         report_omissions(&robot);
         if self.to == Format::Mjcf {
             let mut notes = Vec::new();

@@ -11,6 +11,8 @@ use groebot_robot::motion::Trajectory;
 
 /// The time between two states \[s\].
 const PERIOD: f64 = 0.005;
+/// The answer of a stabiliser that finds no posture: the robot falls.
+const LOST: &str = "lost\n";
 
 /// The motors of the simulation.
 #[derive(Deserialize)]
@@ -90,7 +92,10 @@ impl Feedback {
             angular_velocity: vector(4),
             soles: [7, 13].map(|at| SoleForce { force: vector(at), moment: vector(at + 3) }),
         };
-        let targets = self.stabilizer.step(&state)?;
+        let targets = match self.stabilizer.step(&state) {
+            Err(error) if error.kind() == ErrorKind::BadValue => return Ok(LOST.to_owned()),
+            targets => targets?,
+        };
         let of = |values: &[f64]| -> Vec<String> {
             self.joints.iter().map(|joint| joint.map_or(0.0, |joint| values[joint]).to_string()).collect()
         };

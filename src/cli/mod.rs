@@ -55,8 +55,10 @@ mod strata;
 mod targets;
 mod task;
 mod track;
+mod verify;
 mod view;
 mod walk;
+mod walk_request;
 mod walker;
 
 use std::ffi::OsString;

@@ -11,10 +11,11 @@ use super::floor::{self, FloorArguments, PlaceArguments};
 use super::json::FORMAT;
 use super::output::{Force, Kind, Output};
 use super::progress::{Limits, Session};
+use super::verify::Verification;
 use super::walker::{self, GaitName, Named, SoleArguments};
 use super::{Halt, Outcome, console};
 use crate::{Error, ErrorKind, Result, Watch};
-use groebot_humanoid::gait::{Footstep, GaitDefaults, Summary};
+use groebot_humanoid::gait::{Footstep, GaitDefaults, Summary, Walk, Walker};
 use groebot_humanoid::task::{Blocked, Body, Floor, Method, Pilot, Plan, Refusal};
 use groebot_humanoid::walkers::Outline;
 
@@ -29,9 +30,14 @@ Metres, and degrees for headings; radians in files. The path is that of the midd
 has room for the robot at every heading; if there is no such path, room for the core of its body.
 
 Footsteps follow the path as far as legs and limits permit; where that fails, they are searched.
-Each step is a walk of its own by one step goal, checked at every sample: soles on free cells,
-distance of the body from obstacles, joints within limits and speeds, the zero moment point within
-its margin.
+Each step is first planned as a walk of its own by one step goal, checked at every sample: soles on
+free cells, distance of the body from obstacles, joints within limits and speeds, the zero moment
+point within its margin. Then preview control walks all footsteps without rests between them, with
+the same checks. Where that fails even slowly, the robot rests after each step, with a note; so it
+does by --gait osg.
+
+--verify and --repair simulate the walk with MuJoCo, without the obstacles. The exit status is 5 if it
+falls, and nothing is written.
 
 If there is no path, the exit status is 4, and picture and JSON show the cells that enclose start or
 goal.";
@@ -58,7 +64,7 @@ pub struct Arguments {
     /// The length and width of the body, seen from above (default: from the shapes of the description) [m]
     #[arg(long, value_name = "LENGTH,WIDTH", value_delimiter = ',', num_args = 1)]
     body: Option<Vec<f64>>,
-    /// The gait [default: the robot's first gait by one step goal]
+    /// The gait: preview walks without rests between the steps, a gait by one step goal rests after each [default: preview]
     #[arg(long, value_enum)]
     gait: Option<GaitName>,
     /// Start and end in the crouch, without lowering and rising
@@ -77,6 +83,8 @@ pub struct Arguments {
     #[arg(long)]
     quiet: bool,
     #[command(flatten)]
+    verification: Verification,
+    #[command(flatten)]
     force: Force,
 }
 
@@ -92,20 +100,44 @@ pub(super) enum MethodName {
     Potential,
 }
 
+/// A plan, or the proof that there is no path.
+type Found = std::result::Result<Plan, Blocked>;
+
+/// The result of a pilot.
+struct Navigated {
+    pilot: Pilot,
+    found: Found,
+    /// The time of planning \[ms\].
+    milliseconds: f64,
+    /// Why the robot rests after each step, unless that was requested.
+    note: Option<String>,
+}
+
+fn walk_of(navigated: &Navigated) -> Option<&Walk> {
+    navigated.found.as_ref().ok().map(|plan| &plan.walk)
+}
+
 /// Plans the walk and writes the requested files.
 pub fn run(arguments: &Arguments) -> Outcome {
     let output = arguments.output()?;
     let session = Session::start(Limits { quiet: arguments.quiet, ..Limits::default() })?;
     let named = walker::named(&arguments.robot, Outline::Measured, &arguments.soles, &session.watch)?;
-    let notes = named.robot.parts().notes.clone();
     let (map, default_start) = arguments.floor.map(&arguments.map)?;
-    let pilot = arguments.pilot(named, &session.watch)?;
     let floor = Floor::new(&map, arguments.places.apart)?;
     let (start, goal) = (arguments.places.start(default_start)?, arguments.places.goal()?);
-    let begun = Instant::now();
-    let feet = start.feet(pilot.half_width());
-    let found = Plan::find(&pilot, &floor, feet, goal.by(arguments.method.method()), &session.watch)?;
-    let milliseconds = 1e3 * begun.elapsed().as_secs_f64();
+    let plan = |walker: &Walker| -> Result<Navigated> {
+        let pilot = arguments.pilot(&named, walker, &session.watch)?;
+        let begun = Instant::now();
+        let feet = start.feet(pilot.half_width());
+        let mut found = Plan::find(&pilot, &floor, feet, goal.by(arguments.method.method()), &session.watch)?;
+        let note = match (&mut found, arguments.blended(walker)?) {
+            (Ok(plan), Some(gait)) => blend(plan, (&pilot, &floor), &gait, &session.watch)?,
+            _ => None,
+        };
+        Ok(Navigated { pilot, found, milliseconds: 1e3 * begun.elapsed().as_secs_f64(), note })
+    };
+    let verified = arguments.verification.planned(&named, &session.watch, plan, walk_of)?;
+    let Navigated { pilot, found, milliseconds, note } = verified.plan;
     drop(session);
     match &found {
         Ok(plan) => arguments.write(&output, &pilot, &floor, plan)?,
@@ -115,6 +147,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
             }
         }
     }
+    let notes = [named.robot.parts().notes.clone(), note.into_iter().collect(), verified.notes].concat();
     if arguments.json {
         let mut json_report = arguments.json_report(&pilot, &found, milliseconds);
         json_report["notes"] = notes.into();
@@ -136,14 +169,28 @@ pub fn run(arguments: &Arguments) -> Outcome {
 }
 
 impl Arguments {
-    fn pilot(&self, named: Named, watch: &Watch) -> Result<Pilot> {
+    fn pilot(&self, named: &Named, walker: &Walker, watch: &Watch) -> Result<Pilot> {
         let body = match self.body.as_deref() {
             Some(&[length, width]) => Body::of_size(length, width)?,
             Some(_) => return Err(bad("--body takes two numbers: --body 0.3,0.5")),
-            None => Body::new(&named.robot, &named.walker.biped, &named.meshes)?,
+            None => Body::new(&named.robot, &walker.biped, &named.meshes)?,
         };
-        let defaults = steps(&named.walker.gaits, self.gait)?;
-        Pilot::new(named.walker, defaults, body, !self.crouched, watch)
+        let blended = self.blended(walker)?;
+        let wanted = self.gait.filter(|_| blended.is_none());
+        let defaults = steps(&walker.gaits, wanted)?;
+        let pilot = Pilot::new(walker.clone(), defaults, body, !self.crouched, watch)?;
+        Ok(match blended {
+            Some(gait) => pilot.for_gait(&gait),
+            None => pilot,
+        })
+    }
+
+    /// The parameters of the gait without rests, unless a gait by one step goal is requested.
+    fn blended(&self, walker: &Walker) -> Result<Option<GaitDefaults>> {
+        match self.gait {
+            None | Some(GaitName::Preview) => walker::defaults(&walker.gaits, Some(GaitName::Preview)).map(Some),
+            Some(_) => Ok(None),
+        }
     }
 
     /// The output; it replaces neither the robot nor the map.
@@ -164,7 +211,7 @@ impl Arguments {
         }
     }
 
-    fn json_report(&self, pilot: &Pilot, found: &std::result::Result<Plan, Blocked>, milliseconds: f64) -> Value {
+    fn json_report(&self, pilot: &Pilot, found: &Found, milliseconds: f64) -> Value {
         let method = self.method.to_possible_value().map(|value| value.get_name().to_owned());
         let biped = &pilot.walker().biped;
         let mut json_report =
@@ -178,6 +225,7 @@ impl Arguments {
                 json_report["wide"] = plan.course.is_wide.into();
                 json_report["steps"] = plan.walk.schedule.route.steps.iter().map(step).collect();
                 json_report["seconds"] = summary.duration.into();
+                json_report["rests"] = summary.gait.is_one_step().into();
                 json_report["margin"] = summary.margin.value.into();
                 let refused = |refusal: &Refusal| {
                     let mut value = step(&refusal.footstep);
@@ -207,6 +255,26 @@ impl MethodName {
     }
 }
 
+/// Replaces the walk of a plan by one without rests between its steps. Where none is feasible, the walk stays and the
+/// result is a note.
+fn blend(
+    plan: &mut Plan,
+    (pilot, floor): (&Pilot, &Floor),
+    gait: &GaitDefaults,
+    watch: &Watch,
+) -> Result<Option<String>> {
+    if plan.walk.schedule.route.steps.is_empty() {
+        return Ok(None);
+    }
+    match plan.blended(pilot, floor, gait, watch)? {
+        Ok(walk) => {
+            plan.walk = walk;
+            Ok(None)
+        }
+        Err(reason) => Ok(Some(format!("the robot rests after each step, because preview control fails: {reason}"))),
+    }
+}
+
 /// The gait of that name, or the first one by one step goal.
 fn steps(gaits: &[(&'static str, GaitDefaults)], wanted: Option<GaitName>) -> Result<GaitDefaults> {
     let defaults = match wanted {
@@ -215,7 +283,7 @@ fn steps(gaits: &[(&'static str, GaitDefaults)], wanted: Option<GaitName>) -> Re
     };
     let defaults = defaults.filter(|defaults| defaults.gait.is_one_step());
     defaults.ok_or_else(|| {
-        bad("a path needs a gait by one step goal; give --gait osg, rh0 or rh0-real, if this robot has it")
+        bad("a path needs a gait by one step goal; give --gait osg, rh0, rh0-sim or rh0-real, if this robot has it")
     })
 }
 

@@ -135,10 +135,10 @@ impl Stage {
         let status = running.0.wait().map_err(|error| Error::io(&self.python, &error))?;
         if !status.success() {
             let errors = fs::read_to_string(at("errors.txt")).unwrap_or_default();
-            let last = errors.lines().last().unwrap_or("no message");
+            let message = message(&errors);
             return Err(match status.code() {
-                Some(NO_MUJOCO) => self.no_mujoco(last),
-                _ => Error::new(ErrorKind::Unsupported, format!("MuJoCo cannot simulate this: {last}")),
+                Some(NO_MUJOCO) => self.no_mujoco(&message),
+                _ => Error::new(ErrorKind::Unsupported, format!("MuJoCo cannot simulate this: {message}")),
             });
         }
         let output = serde_json::from_str(&last).map_err(|error| {
@@ -155,6 +155,13 @@ impl Stage {
         );
         Error::new(ErrorKind::Unsupported, text)
     }
+}
+
+/// The message of an exception, which may have several lines: all after the indented lines of the traceback.
+fn message(errors: &str) -> String {
+    let lines: Vec<&str> = errors.lines().filter(|line| !line.trim().is_empty()).collect();
+    let start = lines.iter().rposition(|line| line.starts_with(' ')).map_or(0, |place| place + 1);
+    if lines.is_empty() { "no message".to_owned() } else { lines[start.min(lines.len() - 1)..].join("; ") }
 }
 
 /// The lines that a process writes; a thread of their own reads them.
@@ -211,6 +218,13 @@ impl Exchange<'_> {
                 Err(RecvTimeoutError::Disconnected) => return Ok(None),
             }
         }
+    }
+}
+
+impl Default for Case {
+    /// A level floor with friction 0.8; the robot as described.
+    fn default() -> Self {
+        Case { friction: 0.8, slope: [0.0; 2], mass: 1.0, gain: 1.0, latency: 0.0, noise: 0.0, push: None }
     }
 }
 

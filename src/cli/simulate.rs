@@ -11,13 +11,14 @@ use super::moving::{self, Motion, described};
 use super::output::{Force, Kind, Output};
 use super::physics::{Case, Push, ScriptOutput, Stage, whole};
 use super::progress::{Limits, Session, seconds};
-use super::walker::{self, SoleArguments, named};
+use super::walker::{self, Named, Shod, SoleArguments};
 use super::{Halt, Outcome, console};
 use crate::{Error, ErrorKind, Result, Watch};
+use groebot_humanoid::gait::Walker;
 use groebot_humanoid::sim::{Comparison, Quantity, Usage, soles};
 use groebot_humanoid::walkers::Outline;
 use groebot_robot::document::shown;
-use groebot_robot::model::Robot;
+use groebot_robot::model::{Meshes, Robot};
 use groebot_robot::motion::Trajectory;
 
 const EXAMPLES: &str = "Examples:
@@ -34,7 +35,10 @@ MuJoCo is an external program. GROEBOT_PYTHON is a Python that has it, by defaul
 Motors are position servos of one kind: torque = stiffness (command - q) - damping (q' - planned
 q'), within the efforts of the description, with an inertia at the joint. --servo gives stiffness in
 m g l, damping in m g^0.5 l^1.5 and inertia in m l^2, where m is the robot's mass and l is 0.63 of
-the height of its torso. A body that is described as a point has moments of inertia 0.2 m l^2.
+the height of its torso. A joint with limits of its effort and its velocity in the description has
+the inertia with which its motor reaches the velocity in 15 ms with the effort, but at most that by
+--servo, and at least k (4 ms)^2, so that MuJoCo integrates it stably. A body that is described as a
+point has moments of inertia 0.2 m l^2.
 
 A stabiliser reads joint values, orientation and angular velocity of the base and the forces on both
 soles at 200 Hz, and corrects the commands (docs/walking.md). It knows the motors' stiffness and the
@@ -123,9 +127,9 @@ pub struct Arguments {
 /// Simulates, compares and writes the requested files.
 pub fn run(arguments: &Arguments) -> Outcome {
     let output = arguments.output()?;
-    let (plan, robot, meshes) = arguments.read()?;
-    let (robot, feet) = walker::with_soles(robot, &meshes, &arguments.soles)?;
-    let feet = feet.each_ref().map(String::as_str);
+    let session = Session::start(Limits { time: Some(arguments.time), ..Limits::default() })?;
+    let Walking { plan, shod: Shod { robot, soles }, meshes, walker } = arguments.read(&session.watch)?;
+    let feet = soles.each_ref().map(String::as_str);
     let mut notes = robot.parts().notes.clone();
     let model = robot.to_mjcf(&meshes, &mut notes)?;
     if !arguments.json {
@@ -134,14 +138,12 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let nominal = arguments.case()?;
     let legs = legs(&robot, feet).map_err(|error| error.with_context("--left and --right are the soles"))?;
     let stage = Stage::new(&model, &plan, feet, arguments.servo.as_deref())?;
-    let session = Session::start(Limits { time: Some(arguments.time), ..Limits::default() })?;
+    let mut feedback = walker.map(|walker| Feedback::new(&walker, &plan)).transpose()?;
     if arguments.vary {
-        let feedback = arguments.feedback(&plan, &session.watch)?;
         let runs = varied((&stage, &plan), &nominal, feedback.as_ref(), &session.watch)?;
         drop(session);
         return report_runs(&runs, &notes, arguments.json);
     }
-    let mut feedback = arguments.feedback(&plan, &session.watch)?;
     let (answer, result) = stage.play(&nominal, feedback.as_mut(), &session.watch)?;
     drop(session);
     let compared = Comparison::of(&plan, &answer, result.stiffness / nominal.mass)?;
@@ -159,9 +161,17 @@ pub fn run(arguments: &Arguments) -> Outcome {
     if result.fell.is_some() { Err(Halt::Fell) } else { Ok(()) }
 }
 
+/// A walk and its robot.
+struct Walking {
+    plan: Trajectory,
+    shod: Shod,
+    meshes: Meshes,
+    walker: Option<Walker>,
+}
+
 impl Arguments {
-    /// The walk, and its robot.
-    fn read(&self) -> Result<(Trajectory, Robot, groebot_robot::model::Meshes)> {
+    /// The walk and its robot, with its walker unless it is played in open loop.
+    fn read(&self, watch: &Watch) -> Result<Walking> {
         let file = &self.walk;
         let Some(Motion { trajectory: plan, .. }) = moving::motion(file)? else {
             let text = "the file name is not that of a walk; give the output of `groebot walk` or `groebot navigate`, .csv or .json";
@@ -177,19 +187,22 @@ impl Arguments {
             return Err(Error::new(ErrorKind::UnknownName, text));
         }
         // MuJoCo reads meshes from another folder.
-        let (robot, meshes) = described(&if model.exists() { whole(&model) } else { model })?;
-        let unknown = plan.joints.iter().find(|joint| robot.joint(&joint.name).is_err());
-        match unknown {
-            Some(joint) => {
-                let text = format!(
-                    "the walk moves joint `{}`, which {} does not have; give its robot by --model",
-                    shown(&joint.name),
-                    shown(robot.name())
-                );
-                Err(Error::new(ErrorKind::UnknownName, text).in_file(file))
-            }
-            None => Ok((plan, robot, meshes)),
+        let (robot, meshes) = described(&if model.exists() { whole(&model) } else { model.clone() })?;
+        if let Some(joint) = plan.joints.iter().find(|joint| robot.joint(&joint.name).is_err()) {
+            let text = format!(
+                "the walk moves joint `{}`, which {} does not have; give its robot by --model",
+                shown(&joint.name),
+                shown(robot.name())
+            );
+            return Err(Error::new(ErrorKind::UnknownName, text).in_file(file));
         }
+        if self.open_loop {
+            let shod = walker::with_soles(robot, &meshes, &self.soles)?;
+            return Ok(Walking { plan, shod, meshes, walker: None });
+        }
+        let Named { shod, meshes, walker, .. } =
+            walker::named(&model.to_string_lossy(), Outline::default(), &self.soles, watch)?;
+        Ok(Walking { plan, shod, meshes, walker: Some(walker) })
     }
 
     fn case(&self) -> Result<Case> {
@@ -237,16 +250,6 @@ impl Arguments {
                 "--push takes four numbers: start [s], force [N], duration [s], direction [degrees], such as 3,20,0.1,90",
             )),
         }
-    }
-
-    /// The feedback, unless the walk is played in open loop.
-    fn feedback(&self, plan: &Trajectory, watch: &Watch) -> Result<Option<Feedback>> {
-        if self.open_loop {
-            return Ok(None);
-        }
-        let name = self.model.as_ref().map_or(plan.robot.clone(), |model| model.to_string_lossy().into_owned());
-        let walker = named(&name, Outline::default(), &self.soles, watch)?.walker;
-        Feedback::new(&walker, plan).map(Some)
     }
 
     /// The output; it replaces neither the walk nor the model.

@@ -10,14 +10,15 @@ use super::json::FORMAT;
 use super::navigate::MethodName;
 use super::output::{Force, Kind, Output};
 use super::progress::{Limits, Session};
+use super::verify::Verification;
 use super::view::soles;
 use super::walker::{self, Named, SoleArguments};
 use super::{Halt, Outcome, console};
 use crate::{Error, ErrorKind, Result, Watch};
-use groebot_humanoid::gait::{Footprint, Summary};
+use groebot_humanoid::gait::{Footprint, Summary, Walk, Walker};
 use groebot_humanoid::nav::Room;
 use groebot_humanoid::sim::{Change, Checks, Destination, Performed, Run, Start, Thing, What, perform};
-use groebot_humanoid::task::{Blocked, Body, Floor, Plan};
+use groebot_humanoid::task::{Blocked, Body, Floor, Pilot, Plan};
 use groebot_humanoid::view::{Page, WalkRecord};
 use groebot_humanoid::walkers::Outline;
 use groebot_robot::document::{one_among, shown};
@@ -35,6 +36,8 @@ the goal during the walk, and the path is planned again from the robot's current
 Afterwards every sample is checked: the distance of each link from each piece of furniture, the
 walls and the floor, soles on the floor by forward kinematics, the margin of the zero moment point,
 limits and speeds of the joints. The exit status is 1 if a check fails, 4 if there is no path.
+--verify and --repair simulate the walk with MuJoCo, without furniture; the exit status is 5 if it
+falls, and nothing is written.
 
 Metres, and degrees for headings and yaws. The goal for a piece of furniture is the place in front
 of it that is reached first. Rooms of groebot: living-room, encirclement (RH0 Fig. 5-25, 5-27).";
@@ -85,7 +88,16 @@ pub struct Arguments {
     #[arg(long)]
     quiet: bool,
     #[command(flatten)]
+    verification: Verification,
+    #[command(flatten)]
     force: Force,
+}
+
+/// A pilot, and its run.
+type Done = (Pilot, std::result::Result<Performed, Blocked>);
+
+fn walk_of((_, done): &Done) -> Option<&Walk> {
+    done.as_ref().ok().map(|performed| &performed.walk)
 }
 
 /// Runs the task and writes the requested files.
@@ -96,19 +108,22 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let named = walker::named(&arguments.robot, Outline::Measured, &arguments.soles, &session.watch)?;
     let room = refurnished(read_room(&arguments.room)?, &arguments.furniture)?;
     let changes = arguments.changes(&room)?;
-    let run = arguments.start(&named, room, &session.watch)?;
-    let pilot = run.pilot().clone();
-    let done = perform(run, &changes, &session.watch)?;
-    let performed = match done {
-        Ok(performed) => performed,
-        Err(blocked) => {
+    let plan = |walker: &Walker| -> Result<Done> {
+        let run = arguments.start(&named, walker, room.clone(), &session.watch)?;
+        Ok((run.pilot().clone(), perform(run, &changes, &session.watch)?))
+    };
+    let verified = arguments.verification.planned(&named, &session.watch, plan, walk_of)?;
+    let notes = [named.robot.parts().notes.clone(), verified.notes].concat();
+    let (pilot, performed) = match verified.plan {
+        (pilot, Ok(performed)) => (pilot, performed),
+        (_, Err(blocked)) => {
             drop(session);
-            return arguments.refuse(&blocked, &named.robot.parts().notes);
+            return arguments.refuse(&blocked, &notes);
         }
     };
     let checks = Checks::of(&named.robot, &named.meshes, &named.walker.biped, &performed, &session.watch)?;
     drop(session);
-    let (mut json_report, notes) = (json_report(&performed, &checks), named.robot.parts().notes.clone());
+    let mut json_report = json_report(&performed, &checks);
     arguments.write(&output, &named, &performed, &json_report)?;
     if let (Some(file), Some(last)) = (&arguments.plot, performed.stages.last()) {
         let plan = Plan { course: last.course.clone(), walk: performed.walk.clone(), refusals: Vec::new() };
@@ -129,7 +144,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
 
 impl Arguments {
     /// The run at its start.
-    fn start(&self, named: &Named, room: Room, watch: &Watch) -> Result<Run> {
+    fn start(&self, named: &Named, walker: &Walker, room: Room, watch: &Watch) -> Result<Run> {
         let middle = match (&self.start, room.start) {
             (Some(numbers), _) => start_at(numbers)?,
             (None, Some([x, y, yaw])) => Footprint { x, y, yaw },
@@ -139,8 +154,8 @@ impl Arguments {
             }
         };
         let start = Start {
-            walker: named.walker.clone(),
-            body: Body::new(&named.robot, &named.walker.biped, &named.meshes)?,
+            walker: walker.clone(),
+            body: Body::new(&named.robot, &walker.biped, &named.meshes)?,
             goal: destination(&self.goal, &room)?,
             room,
             apart: self.apart,

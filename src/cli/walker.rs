@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use nalgebra::Point2;
 
+use super::physics::whole;
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_humanoid::gait::{Footing, GaitDefaults, LegSolver, Walker};
 use groebot_humanoid::walkers::{self, Outline};
@@ -24,8 +25,10 @@ pub enum GaitName {
     Preview,
     /// One step goal by its generic laws: the centre of mass stays on a circle on the sole
     Osg,
-    /// One step goal by RH0's laws, with the parameters of the thesis' simulations (5.3)
+    /// One step goal by RH0's laws, with parameters that keep it upright in physics
     Rh0,
+    /// One step goal by RH0's laws, with the parameters of the thesis' simulations (5.3)
+    Rh0Sim,
     /// One step goal by RH0's laws, with the parameters of the thesis' experiments (6.2)
     Rh0Real,
 }
@@ -69,6 +72,16 @@ pub struct Named {
     pub meshes: Meshes,
     /// The walker.
     pub walker: Walker,
+    /// What a simulation moves.
+    pub shod: Shod,
+}
+
+/// A robot with the collision shapes of its soles.
+pub struct Shod {
+    /// The robot as described.
+    pub robot: Robot,
+    /// The links of its soles, left and right.
+    pub soles: [String; 2],
 }
 
 /// The robot of that name, or from a file.
@@ -78,7 +91,11 @@ pub struct Named {
 /// [`Footing::walker`] and [`Options::derive`].
 pub fn named(name: &str, outline: Outline, soles: &SoleArguments, watch: &Watch) -> Result<Named> {
     match (walkers::walker(name, outline), robots::robot(name)) {
-        (Some(walker), Some(robot)) => Ok(Named { robot, meshes: Meshes::default(), walker: walker? }),
+        (Some(walker), Some(robot)) => {
+            let meshes = Meshes::default();
+            let shod = with_soles(robot.clone(), &meshes, soles)?;
+            Ok(Named { robot, meshes, walker: walker?, shod })
+        }
         _ => described(Path::new(name), soles, watch),
     }
 }
@@ -97,30 +114,34 @@ fn described(file: &Path, soles: &SoleArguments, watch: &Watch) -> Result<Named>
         return Err(Error::new(ErrorKind::BadValue, text).in_file(file));
     };
     let at_file = |error: Error| error.in_file(file);
-    let meshes = Meshes::beside(file);
+    // MuJoCo reads meshes from another folder.
+    let meshes = Meshes::beside(&whole(file));
     let footing = soles.footing(&robot, &meshes).map_err(at_file)?;
     let leg = |chain: &Chain| -> Result<LegSolver> {
         Ok(Arc::new(Options::new().watch(watch.clone()).derive(chain)?.solver()))
     };
     let walker = footing.walker(leg).map_err(at_file)?;
+    let shod = shod(&footing, &robot).map_err(at_file)?;
     let notes = footing.notes().to_vec();
-    Ok(Named { robot: footing.robot().clone().with_notes(notes), meshes, walker })
+    Ok(Named { robot: footing.robot().clone().with_notes(notes), meshes, walker, shod })
 }
 
-/// The robot with the collision shapes of its soles, and the links of its soles, left and right. The soles of a robot
-/// of groebot are `l_sole` and `r_sole`.
+/// The robot with the collision shapes of its soles. The soles of a robot of groebot are `l_sole` and `r_sole`.
 ///
 /// # Errors
 /// Those of [`Footing::find`] and [`Footing::shod`].
-pub fn with_soles(robot: Robot, meshes: &Meshes, soles: &SoleArguments) -> Result<(Robot, [String; 2])> {
+pub fn with_soles(robot: Robot, meshes: &Meshes, soles: &SoleArguments) -> Result<Shod> {
     let own = ["l_sole", "r_sole"];
     let is_known = robots::robot(robot.name()).is_some() && own.iter().all(|link| robot.link(link).is_ok());
     if is_known && !soles.is_given() {
-        return Ok((robot, own.map(str::to_owned)));
+        return Ok(Shod { robot, soles: own.map(str::to_owned) });
     }
-    let footing = soles.footing(&robot, meshes)?;
-    let shod = footing.shod(&robot)?.with_notes(footing.notes().to_vec());
-    Ok((shod, footing.soles().map(str::to_owned)))
+    shod(&soles.footing(&robot, meshes)?, &robot)
+}
+
+fn shod(footing: &Footing, robot: &Robot) -> Result<Shod> {
+    let robot = footing.shod(robot)?.with_notes(footing.notes().to_vec());
+    Ok(Shod { robot, soles: footing.soles().map(str::to_owned) })
 }
 
 impl SoleArguments {

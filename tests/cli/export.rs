@@ -21,14 +21,14 @@ fn a_robot_is_exported_and_walks_from_its_file() {
         |extra: &[&str]| succeed(&[&["walk", text(&urdf)][..], &soles, &["--goal", "0.2,0.05,20"], extra].concat());
     let reported = walk(&["-o", text(&csv)]);
     assert!(
-        reported.contains("by one step goal") && reported.contains("path            0.206 m, turn 20.0 deg"),
+        reported.contains("by preview control") && reported.contains("path            0.206 m, turn 20.0 deg"),
         "{reported}"
     );
     let walk_of = groebot::motion::Trajectory::read_csv(&csv).unwrap();
     assert!(walk_of.joints.iter().any(|joint| joint.name == "LKneePitch") && walk_of.times.len() > 100);
-    assert!(walk(&["--gait", "preview"]).contains("by preview control"));
+    assert!(walk(&["--gait", "osg"]).contains("by one step goal"));
     let outline = ["--outline", "-0.1,0.12,-0.05,0.06,-0.02"];
-    assert!(walk(&outline).contains("one step goal"));
+    assert!(walk(&outline).contains("by preview control"));
     // The same soles are found without --left and --right, and the outline is the shape of the soles in MJCF.
     assert_eq!(succeed(&["walk", text(&urdf), "--goal", "0.2,0.05,20"]), walk(&[]));
     let exported = succeed(&[&["export", text(&urdf), "--to", "mjcf"][..], &outline].concat());

@@ -30,6 +30,7 @@ mod refused;
 mod shown;
 mod simulate;
 mod solve;
+mod stands;
 mod task;
 mod task_options;
 mod thin;

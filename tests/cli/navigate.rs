@@ -124,7 +124,7 @@ fn a_humanoid_walks_over_a_map() {
     let goal = ["--start", "0.5,0.5,90", "--goal", "0.9,1.3,0"];
     let requested = [&["navigate", "rh0", "--map", text(&room)][..], &goal, &["-o", text(&csv), "--plot", text(&svg)]];
     let reported = succeed(&requested.concat());
-    for word in ["rh0: ", "least margin", "course", "steps refused", "planned in"] {
+    for word in ["rh0: ", "steps by preview control", "least margin", "course", "steps refused", "planned in"] {
         assert!(reported.contains(word), "{word}: {reported}");
     }
     let walk = Trajectory::read_csv(&csv).unwrap();
@@ -140,6 +140,7 @@ fn a_humanoid_walks_over_a_map() {
         (&reported["robot"], &reported["method"], &reported["wide"]),
         (&"rh0".into(), &"exact".into(), &true.into())
     );
+    assert_eq!((&reported["rests"], reported["notes"].as_array().unwrap().len()), (&false.into(), 0), "{reported}");
     let steps = reported["steps"].as_array().unwrap();
     let end = |foot: &str| steps.iter().rfind(|step| step["foot"] == foot).unwrap();
     let middle = (end("left")["x"].as_f64().unwrap() + end("right")["x"].as_f64().unwrap()) / 2.0;
@@ -160,6 +161,11 @@ fn a_robot_from_a_file_walks_over_a_map() {
     let soles = ["--left", "l_sole", "--right", "r_sole", "--start", "0.5,0.6,80", "--goal", "0.6,1.1"];
     let requested = [&["navigate", text(&urdf), "--map", text(&room)][..], &soles].concat();
     let reported = succeed(&requested);
+    assert!(
+        reported.contains("steps by preview control") && reported.contains("course          0.510 m"),
+        "{reported}"
+    );
+    let reported = succeed(&[&requested[..], &["--gait", "osg"]].concat());
     assert!(reported.contains("steps by one step goal") && reported.contains("course          0.510 m"), "{reported}");
     let reported = succeed(&[&requested[..], &["--body", "0.2,0.4", "--crouched", "--apart", "0.05"]].concat());
     assert!(reported.contains("course          0.510 m"), "{reported}");

@@ -16,8 +16,9 @@ fn walked(arguments: &[&str]) -> (TempDir, String) {
     (folder, file)
 }
 
-fn simulated(arguments: &[&str], python: Option<&Path>) -> Ran {
-    let mut command = groebot(&[&["simulate"], arguments].concat());
+/// Runs a command that needs MuJoCo, with another Python if one is given.
+pub(super) fn with_python(arguments: &[&str], python: Option<&Path>) -> Ran {
+    let mut command = groebot(arguments);
     if let Some(python) = python {
         command.env("GROEBOT_PYTHON", python);
     }
@@ -27,20 +28,32 @@ fn simulated(arguments: &[&str], python: Option<&Path>) -> Ran {
     Ran { code: output.status.code().unwrap(), out, err }
 }
 
+fn simulated(arguments: &[&str], python: Option<&Path>) -> Ran {
+    with_python(&[&["simulate"], arguments].concat(), python)
+}
+
+/// Whether a run ended because there is no MuJoCo: reported, or an error with `GROEBOT_REQUIRE_TOOLS=1`.
+pub(super) fn is_skipped(ran: &Ran) -> bool {
+    if ran.code != 1 || !ran.err.contains("cannot run MuJoCo") {
+        return false;
+    }
+    let required = std::env::var("GROEBOT_REQUIRE_TOOLS").is_ok_and(|value| value == "1");
+    assert!(!required, "{}", ran.err);
+    println!("skipped: {}", ran.err);
+    true
+}
+
 /// The JSON output of a run. Without MuJoCo it is `None`, with a message, or an error with `GROEBOT_REQUIRE_TOOLS=1`.
-fn reported(arguments: &[&str], code: i32) -> Option<Value> {
+pub(super) fn reported(arguments: &[&str], code: i32) -> Option<Value> {
     let ran = simulated(&[arguments, &["--json"]].concat(), None);
-    if ran.code == 1 && ran.err.contains("cannot run MuJoCo") {
-        let required = std::env::var("GROEBOT_REQUIRE_TOOLS").is_ok_and(|value| value == "1");
-        assert!(!required, "{}", ran.err);
-        println!("skipped: {}", ran.err);
+    if is_skipped(&ran) {
         return None;
     }
     assert_eq!((ran.code, ran.err.as_str()), (code, ""));
     Some(serde_json::from_str(&ran.out).unwrap())
 }
 
-fn number(value: &Value) -> f64 {
+pub(super) fn number(value: &Value) -> f64 {
     value.as_f64().unwrap()
 }
 
@@ -134,7 +147,7 @@ fn rh0_sags_as_its_motor_stiffness_predicts() {
 #[test]
 fn feedback_keeps_walks_upright() {
     let walks: [(&[&str], &[&str]); 2] = [
-        (&["rh0", "--plan", "out right, stride left, in right"], &[]),
+        (&["rh0", "--gait", "rh0-sim", "--plan", "out right, stride left, in right"], &[]),
         (&["nao", "--steps", "4"], &["--push", "2.5,11,0.1,270"]),
     ];
     for (walk, options) in walks {
@@ -147,6 +160,16 @@ fn feedback_keeps_walks_upright() {
         let [planned, walked] = ["planned", "walked"].map(|route| number(&compared[route]["ahead"]));
         assert!((walked - planned).abs() < 0.05, "{planned} {walked}");
         assert!(number(&stands["usage"]["margin"][0]) > -0.005, "contact forces are within the soles: {stands}");
+    }
+}
+
+/// The swinging foot lands on the slope that the standing soles have. TEO falls where it lands level.
+#[test]
+fn feet_land_on_a_slope() {
+    let (_folder, file) = walked(&["teo", "--steps", "3", "--crouched"]);
+    for slope in ["3,0", "-3,0", "0,3", "0,-3"] {
+        let Some(stands) = reported(&[&file, "--slope", slope], 0) else { return };
+        assert!(stands["run"]["fell"].is_null(), "{slope}: {stands}");
     }
 }
 

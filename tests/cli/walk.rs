@@ -40,7 +40,7 @@ fn turns_files_of_footsteps_and_preview_control_are_walked() {
     let reported = succeed(&["walk", "nao", "--length", "0", "--turn=-40", "--first", "right"]);
     assert!(reported.contains("turn -40.0 deg"), "{reported}");
     let reported = succeed(&["walk", "nao", "--gait", "preview"]);
-    assert!(reported.contains("preview control") && reported.contains("5.3 cm/s"), "{reported}");
+    assert!(reported.contains("preview control") && reported.contains("8.4 cm/s"), "{reported}");
     let reported = succeed(&["walk", "nao", "--sole", "published", "--steps", "2"]);
     assert!(reported.contains("2 steps"), "{reported}");
     assert_eq!(succeed(&["walk", "nao", "--steps", "1", "--quiet"]), "");
@@ -94,7 +94,7 @@ fn rh0_walks_in_words_and_in_the_thesis_columns() {
     assert!(table.lines().nth(3).unwrap().starts_with("0.072,"));
     assert_eq!(Trajectory::read_csv(&csv).unwrap().times.len(), table.lines().count() - 1);
     assert!(fs::read_to_string(&svg).unwrap().contains("ankles, oblique view"));
-    let reported = succeed(&["walk", "rh0", "--plan", "turn left 90"]);
+    let reported = succeed(&["walk", "rh0", "--gait", "rh0-sim", "--plan", "turn left 90"]);
     assert!(
         reported.contains("12 steps")
             && reported.contains("34.99 s of them stepping")
@@ -118,7 +118,7 @@ fn three_robots_walk_by_one_step_goal() {
     for (arguments, word) in [
         (&["walk", "nao", "--plan", "hop left"][..], "`hop left`"),
         (&["walk", "rh0", "--plan", "stride left"], "command 1"),
-        (&["walk", "rh0", "--gait", "seed"], "give one of `rh0`, `rh0-real`, `osg`"),
+        (&["walk", "rh0", "--gait", "seed"], "give one of `rh0`, `rh0-sim`, `rh0-real`, `osg`"),
         (&["walk", "nao", "--dip", "0.01"], "--gait osg"),
         (&["walk", "teo", "--power", "2"], "--power is for RH0's laws"),
         (&["walk", "nao", "--steps", "1", "--thesis", "/nowhere/t.csv"], "its tables are for rh0"),

@@ -4,7 +4,7 @@ use crate::arm::Arm;
 use groebot::gait::{Footprint, Side, Walk};
 use groebot::kinematics::Solution;
 use groebot::nav::{Piece, Room};
-use groebot::sim::{FIGURES, Next, PRESETS, Run, Start};
+use groebot::sim::{FIGURES, Next, PRESETS, Run, Start, with_fields};
 use groebot::solver::{Program, Solver};
 use groebot::task::Goal;
 use groebot::{Error, ErrorKind, Result, Watch};
@@ -100,7 +100,7 @@ impl Session {
     pub fn answer(&mut self, request: &[u8]) -> String {
         let request = serde_json::from_slice(request).map_err(|error| Error::new(ErrorKind::Syntax, error.to_string()));
         let answer = request.and_then(|request| self.take(request));
-        answer.unwrap_or_else(|error| json!({ "error": error.to_string() })).to_string()
+        answer.unwrap_or_else(|error| json!({ "error": with_fields(&error.to_string()) })).to_string()
     }
 
     fn take(&mut self, request: Request) -> Result<Value> {

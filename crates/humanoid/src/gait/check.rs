@@ -1,8 +1,11 @@
 //! Faults that make a motion infeasible: margins, joint limits, joint rates, feet that collide. Main type: [`Fault`].
 
+use nalgebra::Vector3;
+
 use super::balance::Balance;
-use super::biped::Biped;
+use super::biped::{Biped, Foot};
 use super::footprint::{Footprint, Side};
+use super::legs::Posture;
 use super::motion::{Motion, Samples};
 use super::polygon::Polygon;
 use super::reference::Reference;
@@ -11,6 +14,9 @@ use groebot_robot::motion::{beyond_limit, too_fast};
 
 /// The least distance between the two feet, seen from above \[m\].
 pub(crate) const FEET_APART: f64 = 0.004;
+
+/// The greatest angle between a supporting sole and the floor \[rad\]: the margins are those of level soles.
+pub(super) const MOST_TILT: f64 = 0.04;
 
 /// A fault at a sample.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,6 +50,11 @@ pub enum Fault {
     Feet {
         /// The distance between them \[m\].
         apart: f64,
+    },
+    /// A supporting sole would touch the floor with an edge only: its leg of five joints leaves a rotation free.
+    Tilt {
+        /// The angle between the sole and the floor \[rad\].
+        angle: f64,
     },
 }
 
@@ -84,14 +95,21 @@ pub(crate) fn faults(
 ) -> Vec<Found> {
     let (references, tick) = (samples.references, samples.tick);
     let mut found = Vec::new();
+    let may_tilt = biped.feet.iter().any(|foot| foot.joints.len() < 6);
     for (sample, (reference, balance)) in references.iter().zip(balances).enumerate() {
         let mut add = |fault: Fault| found.push(Found { sample, phase: reference.phase, fault });
         let limits = biped.joints.iter().map(|range| Some(range.limits));
         if let Some((joint, value)) = beyond_limit(limits, &motion.postures[sample].q) {
             add(Fault::Limit { joint, value });
         }
-        let (falls, tilts) = (balance.margin < demand.margin, balance.static_margin < demand.margin);
-        if tilts && (demand.statically || demand.keeps_path && falls) {
+        if may_tilt {
+            let angle = tilt(biped, &motion.postures[sample], &reference.stands);
+            if angle > MOST_TILT {
+                add(Fault::Tilt { angle });
+            }
+        }
+        let (falls, leans) = (balance.margin < demand.margin, balance.static_margin < demand.margin);
+        if leans && (demand.statically || demand.keeps_path && falls) {
             add(Fault::Static { margin: balance.static_margin });
         } else if falls {
             add(Fault::Dynamic { margin: balance.margin });
@@ -105,6 +123,16 @@ pub(crate) fn faults(
         }
     }
     found
+}
+
+/// The greatest angle between a supporting sole and the floor \[rad\].
+pub(super) fn tilt(biped: &Biped, posture: &Posture, stands: &[bool; 2]) -> f64 {
+    let Ok(placed) = biped.model.place(&posture.world_from_torso, &posture.q) else { return 0.0 };
+    let tilted = |(foot, stands): (&Foot, &bool)| {
+        let up = placed.motion(foot.body).rotation * foot.torso_from_sole.rotation * Vector3::z();
+        if *stands { up.xy().norm().atan2(up.z) } else { 0.0 }
+    };
+    biped.feet.iter().zip(stands).map(tilted).fold(0.0, f64::max)
 }
 
 /// Finds the first step of a schedule at which the feet come too near to each other, seen from above. The time is in

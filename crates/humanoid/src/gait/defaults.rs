@@ -1,10 +1,12 @@
 //! The default parameters of a robot's gait. Main type: [`GaitDefaults`].
 
 use std::borrow::Cow;
+use std::fmt;
 
 use super::biped::Biped;
 use super::footprint::Route;
 use super::legs::Legs;
+use super::one_step::OneStep;
 use super::plan::{Planner, SLOWEST, Walk, plan};
 use super::reference::Style;
 use super::request::{Gait, Request};
@@ -44,6 +46,42 @@ pub struct GaitDefaults {
     pub most_turn: f64,
     /// The time between two samples.
     pub tick: f64,
+}
+
+/// Changes of a gait that make a walk steadier.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Steadier {
+    /// The factor on the duration of a step.
+    pub slower: f64,
+    /// The fraction by which the centre of mass moves nearer to the middle of the supporting foot, and the swinging
+    /// foot is more level.
+    pub nearer: f64,
+    /// The factor on the lateral distance between the feet.
+    pub wider: f64,
+    /// The factor on the heights of the hip axes above the floor.
+    pub lower: f64,
+}
+
+/// The changes that `--repair` tries in order.
+pub const REPAIRS: [Steadier; 4] = [
+    Steadier { slower: 1.25, nearer: 0.6, wider: 1.0, lower: 1.0 },
+    Steadier { slower: 1.5, nearer: 0.6, wider: 1.1, lower: 0.98 },
+    Steadier { slower: 1.75, nearer: 1.0, wider: 1.1, lower: 0.96 },
+    Steadier { slower: 2.0, nearer: 1.0, wider: 1.2, lower: 0.94 },
+];
+
+impl fmt::Display for Steadier {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "steps that last {} times as long", self.slower)?;
+        write!(f, ", the centre of mass {:.0} % nearer to the middle of the supporting foot", 1e2 * self.nearer)?;
+        if self.wider > 1.0 {
+            write!(f, ", feet {} times as far apart", self.wider)?;
+        }
+        if self.lower < 1.0 {
+            write!(f, ", hips at {} of their height", self.lower)?;
+        }
+        Ok(())
+    }
 }
 
 /// Factors that shorten turns and steps, tried in order when a walk is infeasible as requested.
@@ -111,6 +149,26 @@ impl GaitDefaults {
     #[must_use]
     pub fn eased(self, ease: f64) -> Self {
         GaitDefaults { most_turn: self.most_turn * ease, length: self.length * (1.0 + ease) / 2.0, ..self }
+    }
+
+    /// Same as `self`, but with these changes. The centre of mass keeps its distance from the supporting foot, or
+    /// comes nearer to it.
+    #[must_use]
+    pub fn steadier(&self, biped: &Biped, by: &Steadier) -> Self {
+        let half_width = self.half_width(biped);
+        let from_foot = (half_width - self.amplitude) * (1.0 - by.nearer);
+        let gait = match self.gait {
+            Gait::OneStep(own) => Gait::OneStep(OneStep { pitch: own.pitch * (1.0 - by.nearer), ..own }),
+            gait => gait,
+        };
+        GaitDefaults {
+            gait,
+            period: self.period * by.slower,
+            half_width: Some(half_width * by.wider),
+            amplitude: half_width * by.wider - from_foot,
+            hip_heights: self.hip_heights.iter().map(|height| height * by.lower).collect(),
+            ..self.clone()
+        }
     }
 
     /// Adds a lowering before the first step and a rise after the last one, for one step goal.

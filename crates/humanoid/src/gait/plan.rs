@@ -13,6 +13,7 @@ use super::reference::{Reference, sine_centre, soles};
 use super::refusal;
 use super::request::{Gait, Request};
 use super::schedule::{Action, Schedule};
+use super::shortened::Shortened;
 use super::slower::slow_down;
 use super::trials;
 use crate::{Error, ErrorKind, Result, Watch};
@@ -46,6 +47,13 @@ impl Walk {
     pub fn time(&self, sample: usize) -> f64 {
         // Rounding to nanoseconds keeps decimals such as 0.07 and 0.108.
         (sample as f64 * self.schedule.tick * 1e9).round() / 1e9
+    }
+}
+
+impl Walk {
+    /// The factors on the durations of its phases.
+    fn factors(&self) -> Vec<f64> {
+        self.schedule.phases.iter().map(|phase| phase.slowed).collect()
     }
 }
 
@@ -91,18 +99,20 @@ pub(super) struct Planner<'a> {
 }
 
 impl Planner<'_> {
-    /// The factors on the durations of the phases by trials of single steps.
+    /// The factors on the durations of the phases, by trials of single steps or of a shortened walk.
     ///
     /// # Errors
     /// As [`plan`], but with the time and the number of the step in its trial.
     pub fn slowed(&self, request: &Request, actions: &[Action]) -> Result<Vec<f64>> {
         if request.gait == Gait::Preview {
-            // Its phases depend on one another.
-            return Ok(vec![1.0; actions.len()]);
+            let Some(short) = Shortened::of(request)? else { return Ok(vec![1.0; actions.len()]) };
+            let own = request.gait.actions(short.request.route.steps.len());
+            let walk = self.walk(&short.request, &own, vec![1.0; own.len()])?;
+            return Ok(short.expanded(actions, &walk.factors()));
         }
         trials::slowed(request, actions, |request, actions| {
             let walk = self.walk(request, actions, vec![1.0; actions.len()])?;
-            Ok(walk.schedule.phases.iter().map(|phase| phase.slowed).collect())
+            Ok(walk.factors())
         })
     }
 

@@ -14,8 +14,6 @@ use super::schedule::{Action, Schedule};
 use super::zmp::GRAVITY;
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// The preview horizon \[s\]; Kajita takes 1.6.
-const HORIZON: f64 = 2.0;
 /// The weight of the integrated error of the zero moment point; the weight of jerk is [`JERK_PRICE`]. Kajita's values.
 const ERROR_PRICE: f64 = 1.0;
 const JERK_PRICE: f64 = 1e-6;
@@ -23,9 +21,12 @@ const JERK_PRICE: f64 = 1e-6;
 const MOST_RECURSIONS: usize = 100_000;
 /// The greatest relative change of the solution of Riccati's equation at convergence.
 const SETTLED: f64 = 1e-13;
-/// The number of times that the difference between the zero moment points of multibody and cart is fed back: Kajita's
-/// second stage.
-const FEEDBACKS: usize = 1;
+/// The greatest number of times that the difference between the zero moment points of multibody and cart is fed back:
+/// Kajita's second stage, repeated.
+const FEEDBACKS: usize = 3;
+/// The distance between the zero moment point and its reference below which nothing is fed back \[m\]: a small part of
+/// the soles of all robots.
+const NEAR: f64 = 3e-3;
 
 /// The gains of preview control for a height of the centre of mass.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,8 +35,13 @@ pub struct Preview {
     tick: f64,
     /// The feedback gains of the summed error and of position, velocity and acceleration.
     gains: RowVector4<f64>,
-    /// The preview gains of the reference one, two, ... samples in the future.
-    ahead: Vec<f64>,
+    /// The preview gain of the reference one sample in the future.
+    next: f64,
+    /// The preview gains of the later future: `read`, of a costate `s[k] = closed s[k + 1] + start r[k + 2]`, with the
+    /// reference `r`.
+    closed: Matrix4<f64>,
+    start: Vector4<f64>,
+    read: RowVector4<f64>,
 }
 
 impl Preview {
@@ -52,46 +58,44 @@ impl Preview {
         let p = riccati(&a, &b).ok_or_else(|| bad("Riccati's equation has no solution"))?;
         let weight = 1.0 / (JERK_PRICE + (b.transpose() * p * b).x);
         let gains: RowVector4<f64> = b.transpose() * p * a * weight;
-        let closed = a - b * gains;
-        let mut carried: Vector4<f64> = -(closed.transpose() * p * Vector4::x());
-        let count = (HORIZON / tick).ceil() as usize;
-        let mut ahead = vec![-gains.x];
-        while ahead.len() < count {
-            ahead.push(weight * b.dot(&carried));
-            carried = closed.transpose() * carried;
-        }
-        Ok(Preview { height, tick, gains, ahead })
+        let closed = (a - b * gains).transpose();
+        let start = -(closed * p * Vector4::x());
+        Ok(Preview { height, tick, gains, next: -gains.x, closed, start, read: b.transpose() * weight })
     }
 
     /// The positions of the centre of mass whose zero moment point follows `reference`, for one coordinate, from rest
     /// above its first value. After its end the reference stays constant.
     pub fn follow(&self, reference: &[f64]) -> Vec<f64> {
         let Some((&first, &last)) = reference.first().zip(reference.last()) else { return Vec::new() };
+        let future = self.future(reference);
         let (mut state, mut error) = (Vector3::new(first, 0.0, 0.0), 0.0);
         let mut positions = Vec::with_capacity(reference.len());
-        let known: Vec<f64> = reference.iter().copied().chain(std::iter::repeat_n(last, self.ahead.len())).collect();
-        for sample in 0..reference.len() {
+        for (sample, wanted) in reference.iter().enumerate() {
             positions.push(state.x);
             let zmp = state.x - self.height / GRAVITY * state.z;
-            error += zmp - reference[sample];
-            let future = dot(&self.ahead, &known[sample + 1..]);
+            error += zmp - wanted;
+            let next = reference.get(sample + 1).unwrap_or(&last);
             let feedback = self.gains.dot(&RowVector4::new(error, state.x, state.y, state.z));
-            let jerk = -feedback - future;
+            let jerk = -feedback - self.next * next - future[sample];
             state = advanced(&state, jerk, self.tick);
         }
         positions
     }
-}
 
-/// The scalar product of `gains` with as many values, in four independent sums.
-fn dot(gains: &[f64], values: &[f64]) -> f64 {
-    let mut sums = [0.0; 4];
-    for (gains, values) in gains.chunks(4).zip(values.chunks(4)) {
-        for (sum, (gain, value)) in sums.iter_mut().zip(gains.iter().zip(values)) {
-            *sum += gain * value;
+    /// For each sample, the jerk that the reference two and more samples in the future subtracts: the sum of all preview
+    /// gains times that reference, by a recursion backward in time.
+    fn future(&self, reference: &[f64]) -> Vec<f64> {
+        let last = reference.last().copied().unwrap_or_default();
+        // The costate of a constant reference.
+        let resting = (Matrix4::identity() - self.closed).lu().solve(&self.start).unwrap_or_default() * last;
+        let mut costate = resting;
+        let mut jerks = vec![0.0; reference.len()];
+        for (sample, jerk) in jerks.iter_mut().enumerate().rev() {
+            costate = self.closed * costate + self.start * *reference.get(sample + 2).unwrap_or(&last);
+            *jerk = (self.read * costate).x;
         }
+        jerks
     }
-    sums.iter().sum()
 }
 
 /// The state of the cart after a tick of constant jerk.
@@ -145,6 +149,16 @@ pub(crate) fn zmp_reference(
     between_stances(style, schedule, action, feet, |_, [from, to]| from + (to - from) * smooth(share))
 }
 
+/// The reference of the zero moment point at each sample.
+pub(super) fn wanted(style: &Style, schedule: &Schedule) -> Vec<Point2<f64>> {
+    let stands = schedule.route.stands();
+    let at = |(phase, share): (usize, f64)| {
+        let action = schedule.phases[phase].action;
+        zmp_reference(style, schedule, action, &Schedule::feet(&stands, action, phase == 0), share)
+    };
+    schedule.instants().map(at).collect()
+}
+
 /// The motion whose zero moment point follows its reference by preview control. The centres of `references` become
 /// those of the walk.
 ///
@@ -158,14 +172,7 @@ pub(super) fn moved(
     references: &mut [Reference],
     watch: &Watch,
 ) -> Result<(Motion, Vec<Balance>)> {
-    let (stands, tick) = (schedule.route.stands(), request.tick);
-    let wanted: Vec<Point2<f64>> = (schedule.instants())
-        .map(|(phase, share)| {
-            let action = schedule.phases[phase].action;
-            let feet = Schedule::feet(&stands, action, phase == 0);
-            zmp_reference(&request.style, schedule, action, &feet, share)
-        })
-        .collect();
+    let (wanted, tick) = (wanted(&request.style, schedule), request.tick);
     let resting = realised(biped, legs, &Samples::new(&references[..1], request.tick), watch)?;
     let preview = Preview::new(resting.0.centres[0].z, request.tick)?;
     let follow = |positions: &[Vector2<f64>]| -> Vec<Vector2<f64>> {
@@ -173,19 +180,29 @@ pub(super) fn moved(
         x.into_iter().zip(y).map(|(x, y)| Vector2::new(x, y)).collect()
     };
     let mut centres = follow(&wanted.iter().map(|point| point.coords).collect::<Vec<_>>());
-    let mut alike: Option<Motion> = None;
+    aim(references, &centres);
+    let (mut motion, mut balances) = realised(biped, legs, &Samples::new(references, tick), watch)?;
     for _ in 0..FEEDBACKS {
-        aim(references, &centres);
-        let (motion, balances) = realised(biped, legs, &Samples { references, tick, alike: alike.as_ref() }, watch)?;
-        alike = Some(motion);
-        let missing: Vec<Vector2<f64>> =
-            wanted.iter().zip(&balances).map(|(wanted, balance)| wanted - balance.zmp).collect();
+        let missing: Vec<Vector2<f64>> = wanted
+            .iter()
+            .zip(&balances)
+            .zip(&*references)
+            .map(|((wanted, balance), reference)| match schedule.phases[reference.phase].action {
+                // There the models agree, except at the jumps of the first and the last sample.
+                Action::Rest => Vector2::zeros(),
+                _ => wanted - balance.zmp,
+            })
+            .collect();
+        if missing.iter().all(|missing| missing.norm() <= NEAR) {
+            break;
+        }
         for (centre, correction) in centres.iter_mut().zip(follow(&missing)) {
             *centre += correction;
         }
+        aim(references, &centres);
+        (motion, balances) = realised(biped, legs, &Samples::new(references, tick).alike(&motion), watch)?;
     }
-    aim(references, &centres);
-    realised(biped, legs, &Samples { references, tick, alike: alike.as_ref() }, watch)
+    Ok((motion, balances))
 }
 
 /// Sets these centres of mass in the references.

@@ -4,7 +4,7 @@
 use nalgebra::Point2;
 
 use super::biped::Biped;
-use super::check::{Fault, Found};
+use super::check::{Fault, Found, MOST_TILT};
 use super::one_step::{Laws, OneStep};
 use super::reference::Style;
 use super::request::{Gait, Request};
@@ -58,6 +58,12 @@ pub(super) fn of(biped: &Biped, schedule: &Schedule, request: &Request, found: &
                 1e3 * apart
             )
         }
+        Fault::Tilt { angle } => format!(
+            "a supporting sole would tilt by {:.1} deg, because a leg of five joints does not hold this rotation; at most {:.1} deg are allowed, because only its \
+             edge would touch the floor; move the body less to the sides (--amplitude)",
+            angle.to_degrees(),
+            MOST_TILT.to_degrees()
+        ),
     };
     Error::new(ErrorKind::BadValue, format!("{text} (t = {time:.2} s, {})", phase(schedule, found.phase)))
 }

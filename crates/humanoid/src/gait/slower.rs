@@ -3,9 +3,12 @@
 //! Where the path of the robot does not depend on its speed, a phase that takes `r` times as long has joint rates of `1 / r` and accelerations of `1 / r^2`
 //! (dynamic scaling, Hollerbach 1984). So one solved motion shows how much longer a phase has to be.
 
+use nalgebra::Point2;
+
 use super::balance::Balance;
 use super::biped::Biped;
 use super::check::{Fault, Found};
+use super::preview::wanted;
 use super::refusal;
 use super::request::{Gait, Request};
 use super::schedule::Schedule;
@@ -32,20 +35,22 @@ pub(super) fn slow_down(
     if let Some(hard) = found.iter().find(|found| !refusal::is_healed_by_time(&found.fault)) {
         return Err(refused(hard));
     }
-    let is_preview = request.gait == Gait::Preview;
-    let mut times = vec![usize::from(is_preview); slowed.len()];
+    let mut times = vec![0; slowed.len()];
     let starts: Vec<usize> = schedule.starts().collect();
+    let slow = resting_pressures(schedule, request);
     for fault in found {
-        let count = if is_preview { 1 } else { repetitions(factor(biped, request, balances, fault)) };
-        let mut slow = |phase: usize| times[phase] = times[phase].max(count);
-        slow(fault.phase);
+        let factor = factor(biped, request, (&balances[fault.sample], slow.get(fault.sample)), fault);
+        // By preview control a slower walk has another path, which may keep the margin.
+        let count = if factor.is_infinite() && !slow.is_empty() { 1 } else { repetitions(factor) };
+        let mut delay = |phase: usize| times[phase] = times[phase].max(count);
+        delay(fault.phase);
         // A sample's acceleration also depends on the neighbouring phase.
         let start = starts[fault.phase];
         if fault.sample <= start + 1 && fault.phase > 0 {
-            slow(fault.phase - 1);
+            delay(fault.phase - 1);
         }
         if fault.sample + 1 >= start + schedule.phases[fault.phase].samples && fault.phase + 1 < starts.len() {
-            slow(fault.phase + 1);
+            delay(fault.phase + 1);
         }
     }
     for (phase, times) in times.into_iter().enumerate() {
@@ -59,6 +64,12 @@ pub(super) fn slow_down(
     Ok(())
 }
 
+/// The zero moment points of an infinitely slow walk by preview control: their references. Other gaits have those of
+/// their balances.
+fn resting_pressures(schedule: &Schedule, request: &Request) -> Vec<Point2<f64>> {
+    if request.gait == Gait::Preview { wanted(&request.style, schedule) } else { Vec::new() }
+}
+
 /// The number of times that a phase is slowed down before the next trial, if it has to be slower by `factor`: one less
 /// than that, but at least once.
 fn repetitions(factor: f64) -> usize {
@@ -66,14 +77,14 @@ fn repetitions(factor: f64) -> usize {
 }
 
 /// The factor by which a phase has to be longer to remove a fault, by dynamic scaling; infinite where none removes it.
-fn factor(biped: &Biped, request: &Request, balances: &[Balance], found: &Found) -> f64 {
+fn factor(biped: &Biped, request: &Request, (balance, slow): (&Balance, Option<&Point2<f64>>), found: &Found) -> f64 {
     match found.fault {
         Fault::Speed { joint, rate } => rate.abs() / (biped.joints[joint].speed * request.speed_share),
         Fault::Dynamic { .. } => {
-            let balance = &balances[found.sample];
-            // In an infinitely slow walk the zero moment point is the projection of the centre of mass.
+            // In an infinitely slow walk the zero moment point is the projection of the centre of mass, or its reference.
+            let slow = slow.unwrap_or(&balance.pressure);
             let keeps = |share: f64| {
-                let zmp = balance.pressure + (balance.zmp - balance.pressure) * share;
+                let zmp = slow + (balance.zmp - slow) * share;
                 balance.support.signed_distance(&zmp) >= request.margin
             };
             let (mut low, mut high) = (0.0, 1.0);
@@ -83,6 +94,6 @@ fn factor(biped: &Biped, request: &Request, balances: &[Balance], found: &Found)
             }
             1.0 / low.sqrt()
         }
-        Fault::Static { .. } | Fault::Limit { .. } | Fault::Feet { .. } => f64::INFINITY,
+        Fault::Static { .. } | Fault::Limit { .. } | Fault::Feet { .. } | Fault::Tilt { .. } => f64::INFINITY,
     }
 }

@@ -2,9 +2,8 @@
 
 use std::fmt;
 
-use nalgebra::Vector3;
-
 use super::biped::Biped;
+use super::check;
 use super::plan::Walk;
 use super::request::Gait;
 use super::schedule::Action;
@@ -104,15 +103,7 @@ impl Summary {
 
 /// The greatest angle between a supporting sole and the floor.
 fn tilt(biped: &Biped, walk: &Walk) -> Extreme {
-    let angle = |sample: usize| {
-        let posture = &walk.motion.postures[sample];
-        let Ok(placed) = biped.model.place(&posture.world_from_torso, &posture.q) else { return 0.0 };
-        let tilted = |(foot, stands): (&super::Foot, &bool)| {
-            let up = placed.motion(foot.body).rotation * foot.torso_from_sole.rotation * Vector3::z();
-            if *stands { up.xy().norm().atan2(up.z) } else { 0.0 }
-        };
-        biped.feet.iter().zip(&walk.references[sample].stands).map(tilted).fold(0.0, f64::max)
-    };
+    let angle = |sample: usize| check::tilt(biped, &walk.motion.postures[sample], &walk.references[sample].stands);
     extreme(walk, &angle, 1.0)
 }
 

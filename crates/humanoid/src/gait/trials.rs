@@ -37,7 +37,7 @@ pub(super) fn slowed(
 ) -> Result<Vec<f64>> {
     let parts = parts(&request.route, actions);
     let keys: Vec<Key> = parts.iter().map(Part::key).collect();
-    if parts.len() < REPEATED * keys.iter().collect::<HashSet<_>>().len() {
+    if parts.is_empty() || parts.len() < REPEATED * keys.iter().collect::<HashSet<_>>().len() {
         return Ok(vec![1.0; actions.len()]);
     }
     let mut known: HashMap<&Key, Vec<f64>> = HashMap::new();

@@ -29,6 +29,26 @@ pub const FIGURES: [Figure; 9] = [
     Figure { name: "Ca", what: "cadence", unit: "steps/s" },
 ];
 
+/// Options of `groebot walk`, with the parameters that stand for them in a page.
+const FIELDS: [(&str, &str); 9] = [
+    ("--length", "Lp"),
+    ("--lift", "Hp"),
+    ("--half-width", "Wp"),
+    ("--max-turn", "Gcm"),
+    ("--hip-height", "Hcm"),
+    ("--dip", "Kcm"),
+    ("--amplitude", "RAas"),
+    ("--power", "Pocm"),
+    ("--period", "1/Ca"),
+];
+
+/// A message with the names of a page's fields instead of the options of the command line. An option without a field
+/// becomes its words.
+pub fn with_fields(message: &str) -> String {
+    let named = FIELDS.iter().fold(message.to_owned(), |text, (option, field)| text.replace(option, field));
+    named.replace(" --", " ").replace("(--", "(")
+}
+
 /// The lowest cadence \[steps/s\]; that of the experiments is 0.043.
 const SLOWEST: f64 = 0.01;
 

@@ -27,7 +27,7 @@ pub use answer_picture::Quantity;
 #[cfg(feature = "clearance")]
 pub use clearance::{Clearance, Links};
 pub use destination::Destination;
-pub use figures::{FIGURES, Figure, Figures, PRESETS, Preset};
+pub use figures::{FIGURES, Figure, Figures, PRESETS, Preset, with_fields};
 #[cfg(feature = "clearance")]
 pub use full_task::{Change, Checks, Performed, Stage, What, perform};
 pub use interior::{Interior, Piece};

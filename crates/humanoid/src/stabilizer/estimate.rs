@@ -20,6 +20,8 @@ pub(super) struct Estimate {
     pub centre: Point3<f64>,
     /// The DCM \[m\].
     pub dcm: Point2<f64>,
+    /// The poses of the soles.
+    pub soles: [Pose; 2],
     /// The normal force on each sole \[N\].
     pub pressed: [f64; 2],
     /// The centre of pressure of each sole, in its frame \[m\].
@@ -80,7 +82,8 @@ impl Observer {
         place += dt * (velocity + 1.4 * bandwidth * error);
         velocity += dt * (fall + bandwidth * bandwidth * error);
         self.motion = Some((place, velocity));
-        Ok(Estimate { torso: moved * upright, centre, dcm: Point2::from(place + velocity / rate), pressed, pressure })
+        let dcm = Point2::from(place + velocity / rate);
+        Ok(Estimate { torso: moved * upright, centre, dcm, soles, pressed, pressure })
     }
 }
 

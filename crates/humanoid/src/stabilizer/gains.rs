@@ -16,6 +16,8 @@ pub struct StabilizerGains {
     pub sway: f64,
     /// The bandwidth of the admittance of the feet's heights \[rad/s\].
     pub height: f64,
+    /// The fraction of the error of the heading that a footstep corrects; 0 for an inertial sensor without a heading.
+    pub heading: f64,
     /// The bandwidth of the observer of the centre of mass \[rad/s\].
     pub observer: f64,
     /// The stiffness of the joints for the admittances, divided by weight times height of the centre of mass \[1/rad\].
@@ -31,6 +33,7 @@ impl Default for StabilizerGains {
             torso: 2.0,
             sway: 0.5,
             height: 15.0,
+            heading: 0.5,
             observer: 30.0,
             stiffness: 20.0,
         }

@@ -4,6 +4,7 @@ use nalgebra::{Isometry3, Point2, Translation3, UnitQuaternion, Vector2, Vector3
 
 use super::distribution::{Part, distribute, within};
 use super::estimate::{Estimate, Observer, PRESSED};
+use super::floor::Floor;
 use super::gains::StabilizerGains;
 use super::planned::{Instant, PlannedWalk};
 use super::sag::static_torques;
@@ -26,9 +27,13 @@ const RETURN: f64 = 0.1;
 const FADE: f64 = 2.0;
 /// The least distance of the desired ZMP from the border of the support, as a fraction of half of the sole's width.
 const MARGIN: f64 = 0.15;
-/// How much the torso is lowered at first where a leg is too short, and after which it is lowered no more, as fractions of the height of the centre of mass.
-const LOWER: f64 = 0.001;
+/// How much higher the torso could be where a leg is stretched most, the most by which it is lowered for that, and the accuracy of this, as fractions of the
+/// height of the centre of mass.
+const ROOM: f64 = 0.002;
 const LOWEST: f64 = 0.1;
+const EXACT: f64 = 1e-5;
+/// A greater change of a joint within one step of the law is a jump to another solution \[rad\].
+const JUMP: f64 = 0.5;
 /// Longest time between two steps of the law that is integrated \[s\].
 const MOST_STEP: f64 = 0.05;
 /// The first change of the heading of a torso whose legs share an actuator, and the difference at which they agree \[rad\].
@@ -52,12 +57,16 @@ pub struct Stabilizer {
     /// The rotation of the torso about x and y of its heading \[rad\].
     lean: Vector2<f64>,
     steps: Steps,
+    floor: Floor,
     /// The displacement of the torso \[m\].
     sway: Vector2<f64>,
     /// The stiffness of the joints' position controllers \[N m/rad\].
     stiffness: Option<f64>,
     /// How much higher the left sole is than planned, and the right one lower \[m\].
     height: f64,
+    /// How much later in the plan the walk is than the time of the states \[s\], and the speed of the plan.
+    ahead: f64,
+    speed: f64,
 }
 
 impl Stabilizer {
@@ -78,11 +87,14 @@ impl Stabilizer {
             last,
             before: None,
             steps: Steps::default(),
+            floor: Floor::default(),
             integral: Vector2::zeros(),
             tilts: [Vector2::zeros(); 2],
             lean: Vector2::zeros(),
             sway: Vector2::zeros(),
             height: 0.0,
+            ahead: 0.0,
+            speed: 1.0,
         })
     }
 
@@ -107,12 +119,20 @@ impl Stabilizer {
     /// state, and when a corrected sole is out of reach.
     pub fn step(&mut self, state: &State) -> Result<JointTargets> {
         self.check(state)?;
-        let mut plan = self.walk.at(state.time);
         let dt = self.before.as_ref().map_or(0.0, |(time, _)| (state.time - time).min(MOST_STEP));
-        self.steps.displace(&self.walk, state.time, dt, &mut plan);
+        self.ahead += dt * (self.speed - 1.0);
+        let time = state.time + self.ahead;
+        let mut plan = self.walk.at(time);
+        let weight = self.walker.biped.model.mass() * GRAVITY;
+        let is_pressed = state.soles.map(|sole| sole.force.z > PRESSED * weight);
+        let torso = state.orientation * self.walker.biped.torso_from_root.rotation.inverse();
+        self.steps.measure(yaw(&torso), yaw(&plan.posture.world_from_torso.rotation), dt);
+        self.steps.displace(&self.walk, (time, dt), (is_pressed, self.gains.heading), &mut plan);
+        self.floor.incline(&mut plan);
         let rate = (GRAVITY / plan.height()).sqrt();
         let seen = self.observer.estimate(&self.walker.biped, &plan, state, (dt, rate, self.gains.observer))?;
-        let parts = self.balance(&plan, &seen, rate, (state.time, dt));
+        self.floor.observe(&self.walker.biped, &plan, &seen, dt);
+        let parts = self.balance(&plan, &seen, rate, (time, dt));
         self.turn_soles(&plan, &seen, &parts, dt);
         self.straighten(&plan, &seen, dt);
         self.adapt_heights(&plan, &seen, &parts, dt);
@@ -164,13 +184,15 @@ impl Stabilizer {
         let inside = within(&support, &centroid(&support), &plan.zmp, margin);
         let zmp = plan.zmp + (1.0 + self.gains.dcm) * error + self.integral;
         let held = within(&support, &inside, &zmp, margin);
+        self.speed = 1.0;
         if held == zmp {
             self.integral += dt * self.gains.integral * error;
         } else if let [left, right] = plan.stands
             && left != right
             && let Some(landing) = self.walk.landing(usize::from(left), time)
         {
-            self.steps.adjust(biped, plan, (error, held - plan.zmp), (rate, landing - time));
+            let times = (rate, landing - time, self.walk.spare);
+            self.speed = self.steps.adjust(biped, plan, (error, held - plan.zmp), times);
         }
         distribute(biped, &prints, plan.stands, &held, margin)
     }
@@ -226,16 +248,40 @@ impl Stabilizer {
         let sway = Translation3::new(self.sway.x, self.sway.y, 0.0);
         let torso = Pose::from_parts(sway * planned.translation, lean * planned.rotation);
         let last = Posture { world_from_torso: torso, q: self.held(plan) };
-        // A stretched leg cannot reach a corrected sole: the torso is lowered.
-        let mut lower = 0.0;
-        loop {
-            let torso = Translation3::new(0.0, 0.0, -lower) * torso;
-            match self.stand(&soles, &torso, &last) {
-                Ok(posture) => return Ok((posture, soles)),
-                Err(error) if lower > LOWEST * plan.height() => return Err(error),
-                Err(_) => lower = 2.0 * lower + LOWER * plan.height(),
+        let lowered = |by: f64| self.stand(&soles, &(Translation3::new(0.0, 0.0, -by) * torso), &last);
+        let lower = Self::lowering(plan.height(), |by| lowered(by).is_ok_and(|posture| self.is_near(&posture)));
+        Ok((lowered(lower)?, soles))
+    }
+
+    /// Whether the legs come from their last posture without a jump: out of its reach, a leg may have solutions with another hip or ankle.
+    fn is_near(&self, posture: &Posture) -> bool {
+        let legs = self.walker.biped.feet.iter().flat_map(|foot| &foot.joints);
+        legs.into_iter().all(|joint| angle::difference(posture.q[*joint], self.last.q[*joint]).abs() < JUMP)
+    }
+
+    /// How much the torso is lowered: a stretched leg cannot reach a corrected sole. With this much the soles would be in reach of a torso that is higher by a
+    /// little, so that knees do not become straight. `reaches` says whether they are in reach with the torso lowered by so much.
+    fn lowering(height: f64, reaches: impl Fn(f64) -> bool) -> f64 {
+        let (room, most) = (ROOM * height, LOWEST * height);
+        let (mut short, mut enough, mut step) = (-room, -room, room);
+        while !reaches(enough) {
+            if enough > most {
+                return 0.0;
+            }
+            (short, enough, step) = (enough, enough + step, 2.0 * step);
+        }
+        if enough == -room {
+            return 0.0;
+        }
+        while enough - short > EXACT * height {
+            let middle = 0.5 * (short + enough);
+            if reaches(middle) {
+                enough = middle;
+            } else {
+                short = middle;
             }
         }
+        enough + room
     }
 
     /// The last joint values of the legs, and the planned ones of all other joints.
@@ -286,6 +332,12 @@ impl Stabilizer {
         self.before = Some((time, posture.q.clone()));
         JointTargets { positions: posture.q, velocities }
     }
+}
+
+/// The heading of the x axis \[rad\].
+fn yaw(orientation: &UnitQuaternion<f64>) -> f64 {
+    let ahead = orientation * Vector3::x();
+    ahead.y.atan2(ahead.x)
 }
 
 /// Half of the width of the left sole \[m\].

@@ -37,6 +37,8 @@ impl Instant {
 pub(super) struct PlannedWalk {
     times: Vec<f64>,
     rows: Vec<Instant>,
+    /// The factor on the speed of the walk at which the fastest joint reaches its speed limit, at least 1.
+    pub spare: f64,
 }
 
 impl PlannedWalk {
@@ -79,7 +81,14 @@ impl PlannedWalk {
             let time = walk.times[at + 1] - walk.times[at - 1];
             rows[at].velocity = (rows[at + 1].centre - rows[at - 1].centre) / time;
         }
-        Ok(PlannedWalk { times: walk.times.iter().map(|time| time - walk.times[0]).collect(), rows })
+        let used = |(at, pair): (usize, &[Instant])| {
+            let time = walk.times[at + 1] - walk.times[at];
+            let moved = pair[0].posture.q.iter().zip(&pair[1].posture.q).map(|(from, to)| (to - from).abs() / time);
+            moved.zip(&walker.biped.joints).map(|(rate, joint)| rate / joint.speed).fold(0.0, f64::max)
+        };
+        let fastest = rows.windows(2).enumerate().map(used).fold(0.0, f64::max);
+        let times = walk.times.iter().map(|time| time - walk.times[0]).collect();
+        Ok(PlannedWalk { times, rows, spare: fastest.recip().max(1.0) })
     }
 
     /// The walk at a time, by linear interpolation; before its start and after its end it stands.
@@ -114,6 +123,14 @@ impl PlannedWalk {
         let from = self.times.partition_point(|own| *own <= time);
         let row = (from..self.rows.len()).find(|row| self.rows[*row].stands[side])?;
         Some(self.times[row])
+    }
+
+    /// How long a foot that swings at `time` will swing \[s\], and the fraction of its whole swing.
+    pub fn swing_left(&self, side: usize, time: f64) -> Option<(f64, f64)> {
+        let landing = self.landing(side, time)?;
+        let from = self.times.partition_point(|own| *own <= time);
+        let lift = (0..from).rev().find(|row| self.rows[*row].stands[side]).map_or(0.0, |row| self.times[row]);
+        Some((landing - time, (landing - time) / (landing - lift)))
     }
 
     /// The next time at which a foot leaves the floor, and its side.

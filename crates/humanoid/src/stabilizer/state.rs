@@ -18,7 +18,8 @@ pub struct State {
     pub time: f64,
     /// The position of each joint, in the order of the robot's joints ([`crate::gait::Biped::joints`]) \[rad\].
     pub q: Vec<f64>,
-    /// The orientation of the base, the description's root link: world from base. The z axis of the world is vertical; the heading may drift.
+    /// The orientation of the base, the description's root link: world from base. The z axis of the world is vertical. Footsteps correct the
+    /// heading since the first state; if it drifts, the walk turns with it ([`StabilizerGains::heading`](super::StabilizerGains::heading)).
     pub orientation: UnitQuaternion<f64>,
     /// The angular velocity of the base, in the frame of the base \[rad/s\].
     pub angular_velocity: Vector3<f64>,

@@ -3,9 +3,10 @@
 //!
 //! A [`Pilot`] is a walker with its [`Body`] and its step limits, [`Reach`]. On a [`Floor`] it finds a [`Course`] to
 //! its [`Goal`], and follows it step by step in a [`Journey`]. Each step is a walk of its own by one step goal (OSG;
-//! UPA in the thesis), so that goal and obstacles may change between two steps. The world has z up and the floor at 0;
-//! metres, seconds, radians.
+//! UPA in the thesis), so that goal and obstacles may change between two steps. A [`Plan`] can walk the same footsteps
+//! without rests. The world has z up and the floor at 0; metres, seconds, radians.
 
+mod blend;
 mod body;
 mod course;
 mod drawing;

@@ -99,6 +99,12 @@ impl Pilot {
         self
     }
 
+    /// Limits steps and turns to those of a gait that walks the planned footsteps without rests.
+    #[must_use]
+    pub fn for_gait(self, gait: &GaitDefaults) -> Self {
+        self.at_most(gait.length, gait.most_turn)
+    }
+
     /// The walker.
     pub fn walker(&self) -> &Walker {
         &self.walker
@@ -117,6 +123,11 @@ impl Pilot {
     /// Half of the lateral distance between the feet \[m\].
     pub fn half_width(&self) -> f64 {
         self.defaults.half_width(&self.walker.biped)
+    }
+
+    /// The parameters of its gait.
+    pub(super) fn defaults(&self) -> &GaitDefaults {
+        &self.defaults
     }
 
     /// Whether it stands upright before the first and after the last step.

@@ -44,8 +44,13 @@ pub struct Refusal {
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Footstep { side, print } = &self.footstep;
-        write!(f, "step {}, {} foot to ({:.3}, {:.3}): ", self.step, side.name(), print.x, print.y)?;
-        match &self.reason {
+        write!(f, "step {}, {} foot to ({:.3}, {:.3}): {}", self.step, side.name(), print.x, print.y, self.reason)
+    }
+}
+
+impl fmt::Display for Reason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
             Reason::Gait(text) => write!(f, "{text}"),
             Reason::Obstacle(Obstacle::Body, at) => {
                 write!(f, "the body collides with an obstacle at ({:.3}, {:.3})", at.x, at.y)

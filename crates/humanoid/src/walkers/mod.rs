@@ -8,7 +8,7 @@ mod skd;
 mod teo;
 
 pub use nao::{NAO_ONE_STEP, NAO_PREVIEW, NAO_SINE, nao_walker};
-pub use rh0::{RH0_EXPERIMENT, RH0_GENERIC, RH0_SIMULATION, rh0_walker};
+pub use rh0::{RH0_EXPERIMENT, RH0_GENERIC, RH0_SIMULATION, RH0_STEADY, rh0_walker};
 pub use skd::{Manipulator, Real, Virtual, coordinated_arm};
 pub use teo::{TEO_ONE_STEP, teo_walker};
 

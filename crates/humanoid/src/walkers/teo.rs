@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::posture;
 use super::printed::TEO_LEFT_LEG;
 use crate::Result;
-use crate::gait::{Biped, Gait, GaitDefaults, Laws, LegSolver, Legs, Mirrored, OneStep, Walker};
+use crate::gait::{Biped, Gait, GaitDefaults, Laws, LegSolver, Legs, Mirrored, OneStep, Walker, preview_defaults};
 use groebot_robot::model::Meshes;
 use groebot_robot::robots::teo;
 
@@ -26,7 +26,8 @@ pub fn teo_walker() -> Result<Walker> {
     let left: LegSolver = Arc::new(TEO_LEFT_LEG);
     let right = Arc::new(Mirrored::new(Arc::clone(&left), SENSES.to_vec()));
     let legs = Legs::new(&biped, [left, right], crouch)?;
-    Ok(Walker { biped, legs, gaits: vec![("osg", TEO_ONE_STEP)] })
+    let gaits = vec![("osg", TEO_ONE_STEP), ("preview", preview_defaults(&biped))];
+    Ok(Walker { biped, legs, gaits })
 }
 
 /// One step goal by the generic laws of RH0 3.3, on a circle of 30 mm about the point below the ankle. All parameters

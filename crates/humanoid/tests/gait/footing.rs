@@ -160,6 +160,22 @@ fn soles_are_the_ends_of_the_lowest_mirrored_limbs() {
     }
 }
 
+/// iCub's feet have frames of a skin that are a little lower than those of the soles, and not mirrored.
+#[test]
+fn of_low_frames_the_one_below_the_ankle_is_the_sole() {
+    let mut text = PLAIN.urdf().replace("</robot>\n", "");
+    for (name, aside) in [("l_", 0.02), ("r_", 0.03)] {
+        let frames = [("skin", format!("0.08 {aside} -0.05")), ("sole", "0 0 -0.045".to_owned())];
+        for (frame, at) in frames {
+            let child = format!("{name}{frame}");
+            writeln!(text, "<link name=\"{child}\"/>").unwrap();
+            joint(&mut text, &format!("{child}_fixed"), (&format!("{name}foot"), &child), (&at, "0"), "");
+        }
+    }
+    let robot = Robot::from_urdf(&(text + "</robot>\n")).unwrap();
+    assert_eq!(footing(&robot, NO_LINKS).unwrap().soles(), ["l_sole", "r_sole"]);
+}
+
 #[test]
 fn exchanged_labels_are_put_right_by_the_shapes() {
     let robot = PLAIN.robot();

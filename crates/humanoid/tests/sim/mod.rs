@@ -14,9 +14,9 @@ use std::f64::consts::TAU;
 
 use groebot_humanoid::gait::{Footprint, Walk};
 use groebot_humanoid::nav::Room;
-use groebot_humanoid::sim::{Destination, FIGURES, Next, PRESETS, Run, Start};
+use groebot_humanoid::sim::{Destination, FIGURES, Figures, Next, PRESETS, Run, Start, with_fields};
 use groebot_humanoid::task::{Body, Goal, Method};
-use groebot_humanoid::walkers::{self, Outline};
+use groebot_humanoid::walkers::{self, Outline, RH0_SIMULATION};
 use groebot_humanoid::{ErrorKind, Result, Watch};
 use groebot_robot::model::Meshes;
 use groebot_robot::robots::{self};
@@ -131,6 +131,12 @@ fn what_cannot_be_is_refused_and_changes_nothing() {
     ] {
         let error = run.set(name, value, &watch).unwrap_err();
         assert!(error.message().contains(words), "{name} {value}: {error}");
+        // A page has no options.
+        let shown = with_fields(error.message());
+        assert!(
+            !shown.contains("--") && (name != "Lp" || shown.contains("(Hcm) or shorten the steps (Lp)")),
+            "{shown}"
+        );
         assert!(*run.figures() == figures && run.walk().references.len() == samples);
     }
     let on_it = run.room().clone().with_moved("box", middle(run.walk()).point(), 0.0).unwrap();
@@ -155,11 +161,12 @@ fn a_run_that_is_walled_in_waits_until_it_is_not() {
     assert!(arrive(&mut run) > 10);
 }
 
-/// The parameters in the thesis' sections are those of RH0's own gait. Setting NAO's and TEO's own parameters changes nothing.
+/// The parameters in the thesis' sections are those of RH0's gait of the simulations. Setting NAO's and TEO's own parameters changes nothing.
 #[test]
 fn figures_have_their_units() {
-    let rh0 = run("rh0", (0.6, 1.2), (3.0, 1.2));
-    let (own, thesis) = (rh0.figures().values, PRESETS[0].figures.values);
+    let rh0 = walkers::walker("rh0", Outline::Measured).unwrap().unwrap();
+    let thesis = Figures::of(&rh0.biped, &RH0_SIMULATION, RH0_SIMULATION.hip_heights[0]);
+    let (own, thesis) = (thesis.values, PRESETS[0].figures.values);
     for ((figure, own), thesis) in FIGURES.iter().zip(own).zip(thesis) {
         // The height is the first feasible one; the cadence is 1 / (81 * 0.036 s).
         let most = if figure.name == "Hcm" { 0.0031 } else { 1e-4 };

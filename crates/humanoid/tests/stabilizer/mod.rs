@@ -132,6 +132,64 @@ fn a_footstep_moves_to_where_the_robot_falls() {
     assert!((0.01..0.066).contains(&aside), "{moved} for {plan}");
 }
 
+/// The pose of the right sole in the frame of the left one for joint values.
+fn right_in_left(walker: &Walker, q: &[f64]) -> Pose {
+    let [left, right] = soles(walker, q);
+    left.inv_mul(&right)
+}
+
+/// Steps a stabiliser of NAO along its plan until the first landing of the right foot, with states that `change` makes of the planned ones from a quarter of the
+/// swing on. Returns the walker, the walk, the row of the landing and the targets of each row.
+fn until_landing(change: impl Fn(f64, &mut State)) -> (Walker, Trajectory, usize, Vec<Vec<f64>>) {
+    let (walker, walk) = four_steps("nao");
+    let walk = walk.trajectory(&walker.biped);
+    let start = single_support(&walk, 1);
+    let stands = &sim::soles(&walk).unwrap()[1].stands;
+    let landing = start + stands[start..].iter().position(|stands| *stands).unwrap();
+    let mut stabilizer = Stabilizer::new(walker.clone(), &walk).unwrap();
+    let targets = (0..landing).map(|row| {
+        let standing = if row < start { [0.5, 0.5] } else { [1.0, 0.0] };
+        let mut state = planned(&walker, &walk, row, standing);
+        if row >= start {
+            change((row - start) as f64 / (landing - start) as f64, &mut state);
+        }
+        stabilizer.step(&state).unwrap().positions
+    });
+    let targets = targets.collect();
+    (walker, walk, landing, targets)
+}
+
+/// The robot has slipped: it is turned to the left by 0.05 rad. The next foot lands turned to the right.
+#[test]
+fn a_footstep_corrects_the_heading() {
+    let (walker, walk, landing, targets) = until_landing(|_, state| {
+        state.orientation = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), 0.05) * state.orientation;
+    });
+    let planned = planned(&walker, &walk, landing - 1, [1.0, 0.0]).q;
+    let yaw = |q: &[f64]| right_in_left(&walker, q).rotation.euler_angles().2;
+    let turned = yaw(&targets[landing - 1]) - yaw(&planned);
+    // At most half of the error; the filter has not yet seen all of it.
+    assert!((-0.025..-0.01).contains(&turned), "{turned}");
+}
+
+/// The swinging foot presses the floor too early, at two thirds of its swing: it goes no further.
+#[test]
+fn a_foot_that_touches_early_stays_where_it_is() {
+    let (walker, walk, landing, targets) = until_landing(|share, state| {
+        if share > 0.6 {
+            let weight = state.soles[0].force.z;
+            state.soles[0].force.z = 0.85 * weight;
+            state.soles[1].force = Vector3::new(0.0, 0.0, 0.15 * weight);
+        }
+    });
+    let ahead = |q: &[f64]| right_in_left(&walker, q).translation.x;
+    let plan = |row: usize| ahead(&planned(&walker, &walk, row, [1.0, 0.0]).q);
+    let start = single_support(&walk, 1);
+    let touch = start + (0.65 * (landing - start) as f64) as usize;
+    let (own, planned) = (ahead(&targets[landing - 1]) - ahead(&targets[touch]), plan(landing - 1) - plan(touch));
+    assert!(planned > 3e-3 && own.abs() < 0.3 * planned, "{own} for {planned}");
+}
+
 #[test]
 fn states_and_walks_that_do_not_fit_are_refused() {
     let (walker, walk) = four_steps("nao");

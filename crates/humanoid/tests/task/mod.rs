@@ -1,6 +1,7 @@
 //! The whole task: from a map to joint angles. Every walk is verified independently: sample points of soles and bodies against the cells of the original map,
 //! soles by forward kinematics, and the balance (ZMP) of the walk as a whole.
 
+mod blended;
 mod changes;
 mod journeys;
 mod living_room;

@@ -78,7 +78,10 @@ impl Robot {
             let name = escaped(&joint.name);
             let force = joint.effort.filter(|effort| *effort > 0.0);
             let force = force.map(|effort| format!(" forcerange=\"-{effort} {effort}\"")).unwrap_or_default();
-            format!("    <position name=\"{name}\" joint=\"{name}\" kp=\"100\"{force}/>\n")
+            // MJCF has no velocity limits; `user` is for such data.
+            let speed = joint.speed.filter(|speed| *speed > 0.0);
+            let speed = speed.map(|speed| format!(" user=\"{speed}\"")).unwrap_or_default();
+            format!("    <position name=\"{name}\" joint=\"{name}\" kp=\"100\"{force}{speed}/>\n")
         };
         self.leaders().map(servo).collect()
     }

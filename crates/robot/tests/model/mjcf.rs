@@ -63,7 +63,7 @@ fn what_follows_is_tied_and_meshes_that_are_not_there_are_left_out() {
     assert!(notes.len() == 1 && notes[0].contains("a.stl` is not found"), "{notes:?}");
     assert!(text.contains("<joint joint1=\"bc\" joint2=\"ab\" polycoef=\"0.01 0.05 0 0 0\"/>"), "{text}");
     assert_eq!(count(&text, "position"), 1);
-    assert!(text.contains("forcerange=\"-30 30\"") && text.contains("armature=\"1\""));
+    assert!(text.contains("forcerange=\"-30 30\" user=\"") && text.contains("armature=\"1\""));
     assert!(!text.contains("mesh=") && text.contains("type=\"capsule\" size=\"0.02 0.1\""));
     assert!(text.contains("class=\"visual\" type=\"box\" size=\"0.05 0.1 0.15\" rgba=\"1 0 0 1\""));
 }

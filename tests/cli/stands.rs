@@ -1,0 +1,97 @@
+//! Walks of the documentation in MuJoCo with feedback. CI plays five of them; the `--ignored` test plays all.
+
+use std::fs;
+use std::path::Path;
+
+use tempfile::tempdir;
+
+use super::simulate::{is_skipped, number, reported, with_python};
+use super::{root, succeed, text};
+
+/// Four steps ahead, RH0 5.3.1.
+const FOUR_STEPS: &str = "out right, stride left, stride right, in left";
+
+/// Commands of the documentation that plan walks with today's defaults. The first five are short.
+fn commands() -> Vec<Vec<String>> {
+    let room = text(&root("examples/living_room.toml")).to_owned();
+    let through = format!("--map {room} --start 1.4,1.5,0 --goal 3.2,1.6");
+    let lines = [
+        "walk nao --steps 8",
+        "walk nao --steps 8 --length 0 --turn 40",
+        "walk teo --goal 1,0.5",
+        "walk rh0 --plan FOUR",
+        "walk rh0 --plan TURN",
+        "walk nao --steps 8 --length 0 --aside 0.02 --amplitude 0.04",
+        "walk nao --steps 12 --gait preview",
+        "walk nao --turn 8",
+        "walk nao --goal 2,0",
+        "walk nao --gait osg --goal 0.3,0.1",
+        "walk teo --goal 1,0",
+        "walk rh0",
+        "walk rh0 --gait rh0-real --crouched --plan FOUR",
+        "walk rh0 --gait rh0-real --crouched --plan TURN",
+        "walk rh0 --goal 2,1",
+        &format!("navigate rh0 {through}"),
+        &format!("navigate rh0 --gait rh0-real {through} --method m3r"),
+        "task rh0 --room living-room --goal sofa --furniture piano=1.2,0.4",
+    ];
+    let words = |word: &str| match word {
+        "FOUR" => FOUR_STEPS.to_owned(),
+        "TURN" => "turn left 90".to_owned(),
+        word => word.to_owned(),
+    };
+    lines.iter().map(|line| line.split(' ').map(words).collect()).collect()
+}
+
+/// Plans and simulates a walk. It stands, arrives within 10 % of its way and 5 cm, and its heading is within 3 degrees.
+fn stands(command: &[String]) {
+    let folder = tempdir().unwrap();
+    let file = text(&folder.path().join("walk.json")).to_owned();
+    let arguments: Vec<&str> = command.iter().map(String::as_str).collect();
+    succeed(&[&arguments[..], &["--quiet", "-o", &file]].concat());
+    let Some(report) = reported(&[&file], 0) else { return };
+    let compared = &report["comparison"];
+    let [planned, walked] =
+        ["planned", "walked"].map(|route| ["ahead", "left", "turn"].map(|name| number(&compared[route][name])));
+    let off = (walked[0] - planned[0]).hypot(walked[1] - planned[1]);
+    let turned = (walked[2] - planned[2]).to_degrees();
+    let margin = 1e3 * number(&report["usage"]["margin"][0]);
+    println!("{command:?}: {:.0} mm and {turned:.1} deg off the plan, least margin {margin:.1} mm", 1e3 * off);
+    assert!(report["run"]["fell"].is_null() && compared["landings"][0] == compared["landings"][1], "{command:?}");
+    assert!(off < 0.05 + 0.1 * planned[0].hypot(planned[1]) && turned.abs() < 3.0, "{command:?}: {off} {turned}");
+}
+
+#[test]
+fn walks_of_the_documentation_stand() {
+    commands()[..5].iter().for_each(|command| stands(command));
+}
+
+#[test]
+#[ignore = "plays 18 walks for some minutes"]
+fn all_walks_of_the_documentation_stand() {
+    commands().iter().for_each(|command| stands(command));
+}
+
+/// A plan within its margins that falls in physics: long steps with the toes down.
+const FALLS: &str = "walk rh0 --gait rh0-sim --steps 8 --length 0.2 --verify";
+
+/// A walk that stands is written; without MuJoCo, or if it falls, nothing is. What falls is repaired on request.
+#[test]
+fn a_plan_is_verified_before_it_is_written() {
+    let folder = tempdir().unwrap();
+    let (file, nowhere) = (folder.path().join("walk.csv"), folder.path().join("no_python"));
+    let ran = |command: &str, python: Option<&Path>| {
+        let words: Vec<&str> = command.split(' ').collect();
+        with_python(&[&words[..], &["-o", text(&file)]].concat(), python)
+    };
+    let lost = ran("walk nao --steps 3 --verify", Some(&nowhere));
+    assert!(lost.code == 1 && lost.err.contains("GROEBOT_PYTHON") && !file.exists(), "{}", lost.err);
+    let fallen = ran(FALLS, None);
+    if is_skipped(&fallen) {
+        return;
+    }
+    assert!(fallen.code == 5 && fallen.err.contains("nothing was written") && !file.exists(), "{}", fallen.err);
+    let repaired = ran(&FALLS.replace("verify", "repair"), None);
+    assert!(repaired.code == 0 && repaired.err.contains("it stands with steps"), "{}", repaired.err);
+    assert!(fs::read_to_string(&file).unwrap().starts_with("# groebot trajectory 1\n"));
+}
