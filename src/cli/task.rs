@@ -12,7 +12,7 @@ use super::output::{Force, Kind, Output};
 use super::progress::{Limits, Session};
 use super::verify::Verification;
 use super::view::soles;
-use super::walker::{self, Named, SoleArguments};
+use super::walker::{self, GaitName, Named, SoleArguments};
 use super::{Halt, Outcome, console};
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_humanoid::gait::{Footprint, Summary, Walk, Walker};
@@ -69,6 +69,9 @@ pub struct Arguments {
     /// The method that finds paths
     #[arg(long, value_name = "METHOD", default_value = "exact")]
     method: MethodName,
+    /// The gait by one step goal [default: the robot's first one; rh0-sim has the parameters of RH0 5.5]
+    #[arg(long, value_enum)]
+    gait: Option<GaitName>,
     /// The least distance of the body from obstacles [m]
     #[arg(long, value_name = "METRES", default_value_t = 0.02, allow_hyphen_values = true)]
     apart: f64,
@@ -105,7 +108,13 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let output = arguments.force.output([Path::new(&arguments.robot), arguments.room.as_path()]);
     let output = output.expects([arguments.out.as_ref(), arguments.view.as_ref(), arguments.plot.as_ref()])?;
     let session = Session::start(Limits { quiet: arguments.quiet, ..Limits::default() })?;
-    let named = walker::named(&arguments.robot, Outline::Measured, &arguments.soles, &session.watch)?;
+    let mut named = walker::named(&arguments.robot, Outline::Measured, &arguments.soles, &session.watch)?;
+    walker::prefer(&mut named.walker, arguments.gait)?;
+    if arguments.gait.is_some() && !named.walker.gaits[0].1.gait.is_one_step() {
+        return Err(
+            bad("a task needs a gait by one step goal: goal and room may change between its steps".into()).into()
+        );
+    }
     let room = refurnished(read_room(&arguments.room)?, &arguments.furniture)?;
     let changes = arguments.changes(&room)?;
     let plan = |walker: &Walker| -> Result<Done> {

@@ -48,6 +48,18 @@ pub fn defaults(gaits: &[(&'static str, GaitDefaults)], wanted: Option<GaitName>
     })
 }
 
+/// Moves the gait of that name, if one is wanted, to the front of a walker's gaits.
+///
+/// # Errors
+/// As [`defaults`].
+pub fn prefer(walker: &mut Walker, wanted: Option<GaitName>) -> Result<()> {
+    if wanted.is_some() {
+        let first = defaults(&walker.gaits, wanted)?;
+        walker.gaits.sort_by_key(|(_, gait)| *gait != first);
+    }
+    Ok(())
+}
+
 /// The soles of a robot that is described in a file.
 #[derive(clap::Args)]
 pub struct SoleArguments {

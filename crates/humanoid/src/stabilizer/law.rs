@@ -249,8 +249,9 @@ impl Stabilizer {
         let torso = Pose::from_parts(sway * planned.translation, lean * planned.rotation);
         let last = Posture { world_from_torso: torso, q: self.held(plan) };
         let lowered = |by: f64| self.stand(&soles, &(Translation3::new(0.0, 0.0, -by) * torso), &last);
-        let lower = Self::lowering(plan.height(), |by| lowered(by).is_ok_and(|posture| self.is_near(&posture)));
-        Ok((lowered(lower)?, soles))
+        let near = Self::lowering(plan.height(), |by| lowered(by).is_ok_and(|posture| self.is_near(&posture)));
+        let lower = near.or_else(|| Self::lowering(plan.height(), |by| lowered(by).is_ok()));
+        Ok((lowered(lower.unwrap_or(0.0))?, soles))
     }
 
     /// Whether the legs come from their last posture without a jump: out of its reach, a leg may have solutions with another hip or ankle.
@@ -261,17 +262,17 @@ impl Stabilizer {
 
     /// How much the torso is lowered: a stretched leg cannot reach a corrected sole. With this much the soles would be in reach of a torso that is higher by a
     /// little, so that knees do not become straight. `reaches` says whether they are in reach with the torso lowered by so much.
-    fn lowering(height: f64, reaches: impl Fn(f64) -> bool) -> f64 {
+    fn lowering(height: f64, reaches: impl Fn(f64) -> bool) -> Option<f64> {
         let (room, most) = (ROOM * height, LOWEST * height);
         let (mut short, mut enough, mut step) = (-room, -room, room);
         while !reaches(enough) {
             if enough > most {
-                return 0.0;
+                return None;
             }
             (short, enough, step) = (enough, enough + step, 2.0 * step);
         }
         if enough == -room {
-            return 0.0;
+            return Some(0.0);
         }
         while enough - short > EXACT * height {
             let middle = 0.5 * (short + enough);
@@ -281,7 +282,7 @@ impl Stabilizer {
                 short = middle;
             }
         }
-        enough + room
+        Some(enough + room)
     }
 
     /// The last joint values of the legs, and the planned ones of all other joints.

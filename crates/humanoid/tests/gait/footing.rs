@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::sync::{Arc, LazyLock};
 
-use groebot_humanoid::gait::{Footing, LegSolver, Measures, Route, Side, Walk, Walker, plan_at};
+use groebot_humanoid::gait::{Footing, GaitDefaults, LegSolver, Measures, Route, Side, Walk, Walker, plan_at};
 use groebot_humanoid::{ErrorKind, Result, Watch};
 use groebot_ik::derive::Options;
 use groebot_robot::dynamics::Model;
@@ -14,13 +14,15 @@ use nalgebra::{Point2, Vector3};
 
 const NO_LINKS: [Option<&str>; 2] = [None, None];
 
-/// A description with legs of 0.3 m + 0.3 m, 0.1 m to each side of the torso's origin, 0.05 m ahead of it.
+/// A description with legs of 0.3 m + 0.3 m, 0.05 m ahead of the torso's origin.
 #[derive(Clone, Copy)]
 struct Description {
     /// Whether the root link has x backward and y to the right.
     backward: bool,
     /// Whether a joint about the vertical is between the root and the legs.
     waist: bool,
+    /// The distance of the legs from the torso's origin to the sides \[m\].
+    aside: f64,
     /// Whether the ankles roll.
     rolls: bool,
     /// Whether the feet have boxes.
@@ -29,7 +31,8 @@ struct Description {
     names: [&'static str; 2],
 }
 
-const PLAIN: Description = Description { backward: false, waist: false, rolls: true, boxes: true, names: ["l_", "r_"] };
+const PLAIN: Description =
+    Description { backward: false, waist: false, aside: 0.1, rolls: true, boxes: true, names: ["l_", "r_"] };
 
 impl Description {
     fn urdf(&self) -> String {
@@ -43,7 +46,7 @@ impl Description {
             let sole = "<collision><origin xyz=\"0.03 0 -0.04\"/><geometry><box size=\"0.2 0.1 0.02\"/></geometry></collision>";
             let sole = if self.boxes { sole } else { "" };
             let mut parts = vec![
-                ("yaw", format!("0.05 {} -0.1", 0.1 * side), "0 0 1"),
+                ("yaw", format!("0.05 {} -0.1", self.aside * side), "0 0 1"),
                 ("roll", "0 0 0".to_owned(), "1 0 0"),
                 ("pitch", "0 0 0".to_owned(), "0 1 0"),
                 ("knee", "0 0 -0.3".to_owned(), "0 1 0"),
@@ -100,8 +103,11 @@ fn footing(robot: &Robot, links: [Option<&str>; 2]) -> Result<Footing> {
     Footing::find(robot, &Meshes::default(), links, None)
 }
 
-fn walk(walker: &Walker, (x, y, heading): (f64, f64, Option<f64>)) -> Result<Walk> {
-    let defaults = &walker.gaits[0].1;
+fn walk(walker: &Walker, goal: (f64, f64, Option<f64>)) -> Result<Walk> {
+    walk_by(walker, &walker.gaits[0].1, goal)
+}
+
+fn walk_by(walker: &Walker, defaults: &GaitDefaults, (x, y, heading): (f64, f64, Option<f64>)) -> Result<Walk> {
     let biped = &walker.biped;
     let request = |height, ease| {
         let gait = defaults.clone().eased(ease);
@@ -233,10 +239,22 @@ fn a_root_with_x_backward_and_a_waist_walks_the_same() {
 
 #[test]
 fn a_leg_of_five_joints_holds_position_heading_and_pitch() {
-    let description = Description { rolls: false, ..PLAIN };
+    let description = Description { rolls: false, aside: 0.058, ..PLAIN };
     let walker = footing(&description.robot(), NO_LINKS).unwrap().walker(derived).unwrap();
-    let walk = walk(&walker, (0.3, 0.0, Some(0.2))).unwrap();
+    // The body moves by 21 mm to the sides, at a height of 0.6 m: the soles tilt by 2 degrees.
+    let little = GaitDefaults { amplitude: 0.021, ..walker.gaits[0].1.clone() };
+    let walk = walk_by(&walker, &little, (0.3, 0.0, Some(0.2))).unwrap();
     feet_are_where_the_walk_says(&description, &walker, &walk);
+}
+
+#[test]
+fn soles_that_would_tilt_are_refused() {
+    let wide = Description { rolls: false, ..PLAIN };
+    let walker = footing(&wide.robot(), NO_LINKS).unwrap().walker(derived).unwrap();
+    let defaults = walker.gaits[0].1.clone();
+    let low = GaitDefaults { hip_heights: vec![defaults.hip_heights[6]].into(), ..defaults };
+    let error = walk_by(&walker, &low, (0.3, 0.0, None)).unwrap_err();
+    assert!(error.kind() == ErrorKind::BadValue && error.message().contains("sole would tilt by"), "{error}");
 }
 
 #[test]

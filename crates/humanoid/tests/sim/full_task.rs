@@ -3,13 +3,13 @@
 use groebot_humanoid::Watch;
 use groebot_humanoid::gait::Footprint;
 use groebot_humanoid::nav::Room;
-use groebot_humanoid::sim::{Change, Checks, Destination, Performed, What, perform, room};
+use groebot_humanoid::sim::{Change, Checks, Destination, Performed, Run, Start, What, perform, room};
 use groebot_humanoid::task::Blocked;
 use groebot_robot::model::Meshes;
 use groebot_robot::robots;
 use nalgebra::Point2;
 
-use super::{goal, run_in};
+use super::{APART, goal};
 
 pub fn known(name: &str) -> Room {
     Room::from_toml(room(name).unwrap()).unwrap()
@@ -20,9 +20,16 @@ pub fn start_of(room: &Room) -> Footprint {
     Footprint { x, y, yaw }
 }
 
+/// RH0's run with the parameters of the thesis' simulations.
+fn thesis_run(room: &Room, goal: Destination) -> Run {
+    let mut start = Start::of_robot("rh0", room.clone(), start_of(room), goal, APART).unwrap();
+    start.walker.gaits.sort_by_key(|(name, _)| *name != "rh0-sim");
+    Run::new(start, &Watch::none()).unwrap()
+}
+
 fn does(room: &Room, goal: Destination, changes: &[Change]) -> Result<(Performed, Checks), Blocked> {
     let watch = Watch::none();
-    let run = run_in(room, "rh0", start_of(room), goal).unwrap();
+    let run = thesis_run(room, goal);
     let biped = run.pilot().walker().biped.clone();
     let performed = perform(run, changes, &watch).unwrap()?;
     let robot = robots::robot("rh0").unwrap();
