@@ -18,7 +18,8 @@ fn a_task_is_done_checked_and_shown() {
     let [room, json, page, svg] =
         ["room.toml", "task.json", "task.html", "plan.svg"].map(|name| folder.path().join(name));
     fs::write(&room, ROOM).unwrap();
-    let requested = ["task", "rh0", "--room", text(&room), "--goal", "chair", "--then", "ball=1.6,2.3@2"];
+    let requested =
+        ["task", "rh0", "--gait", "rh0-sim", "--room", text(&room), "--goal", "chair", "--then", "ball=1.6,2.3@2"];
     let files = ["-o", text(&json), "--view", text(&page), "--plot", text(&svg)];
     let reported = succeed(&[&requested[..], &files].concat());
     for word in ["after step 0, found in", "after step 2, found in", "nearest ", "to floor, ", "rotates at ", "81"] {

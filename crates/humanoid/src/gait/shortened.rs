@@ -56,7 +56,7 @@ impl Shortened {
             let own = action.with_step(|step| self.steps[step]);
             // Of two rests the last one is that after the last step.
             let mut found = first.clone().filter(|(action, _)| **action == own).map(|(_, factor)| *factor);
-            let factor = if place == 0 { found.next() } else { found.last() };
+            let factor = if place == 0 { found.next() } else { found.next_back() };
             factor.unwrap_or(1.0)
         };
         actions.iter().enumerate().map(factor).collect()
@@ -89,8 +89,8 @@ fn represented(own: &[(Side, Footprint)]) -> Vec<usize> {
             continue;
         }
         let left_out = (end - start).saturating_sub(2 * KEPT) / 2 * 2;
-        for step in start + KEPT..start + KEPT + left_out {
-            steps[step] = start + KEPT - 2 + (step - start - KEPT) % 2;
+        for (place, step) in steps.iter_mut().skip(start + KEPT).take(left_out).enumerate() {
+            *step = start + KEPT - 2 + place % 2;
         }
         start = end - 1;
     }
