@@ -241,8 +241,8 @@ fn a_root_with_x_backward_and_a_waist_walks_the_same() {
 fn a_leg_of_five_joints_holds_position_heading_and_pitch() {
     let description = Description { rolls: false, aside: 0.058, ..PLAIN };
     let walker = footing(&description.robot(), NO_LINKS).unwrap().walker(derived).unwrap();
-    // The body moves by 18 mm to the sides, at a height of 0.6 m: the soles tilt by less than 2 degrees.
-    let little = GaitDefaults { amplitude: 0.018, margin: 0.005, ..walker.gaits[0].1.clone() };
+    // The centre of mass moves by 11 mm to the sides, and the torso more than that, because the lifted leg does not.
+    let little = GaitDefaults { amplitude: 0.011, margin: 0.002, ..walker.gaits[0].1.clone() };
     let walk = walk_by(&walker, &little, (0.3, 0.0, Some(0.2))).unwrap();
     feet_are_where_the_walk_says(&description, &walker, &walk);
 }
