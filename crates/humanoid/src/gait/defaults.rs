@@ -50,6 +50,7 @@ pub struct GaitDefaults {
 
 /// Changes of a gait that make a walk steadier.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Steadier {
     /// The factor on the duration of a step.
     pub slower: f64,
