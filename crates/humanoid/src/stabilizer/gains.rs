@@ -14,7 +14,8 @@ pub struct StabilizerGains {
     pub torso: f64,
     /// The rate at which the torso moves until the centre of mass is where it is planned \[1/s\].
     pub sway: f64,
-    /// The bandwidth of the admittance of the feet's heights \[rad/s\].
+    /// The bandwidth of the admittance of the feet's heights \[rad/s\]. With 15, a foot of TALOS that lands 3 mm too high
+    /// carries weight only after 0.3 s; with 80, margins are smaller when masses are 20 % lower.
     pub height: f64,
     /// The fraction of the error of the heading that a footstep corrects; 0 for an inertial sensor without a heading.
     pub heading: f64,
@@ -32,7 +33,7 @@ impl Default for StabilizerGains {
             ankle: 25.0,
             torso: 2.0,
             sway: 0.5,
-            height: 15.0,
+            height: 60.0,
             heading: 0.5,
             observer: 30.0,
             stiffness: 20.0,
