@@ -147,7 +147,7 @@ fn rh0_sags_as_its_motor_stiffness_predicts() {
 #[test]
 fn feedback_keeps_walks_upright() {
     let walks: [(&[&str], &[&str]); 2] = [
-        (&["rh0", "--gait", "rh0-sim", "--plan", "out right, stride left, in right"], &[]),
+        (&["rh0", "--plan", "out right, stride left, in right"], &[]),
         (&["nao", "--steps", "4"], &["--push", "2.5,11,0.1,270"]),
     ];
     for (walk, options) in walks {
