@@ -87,7 +87,7 @@ pub struct Arguments {
     json: Option<PathBuf>,
     /// Write the columns of the thesis' tables to this CSV file, in degrees and its axes; for rh0, by default with the
     /// parameters of the thesis' simulations
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", conflicts_with = "repair")]
     thesis: Option<PathBuf>,
     /// Write a picture to this SVG file
     #[arg(long, value_name = "FILE")]

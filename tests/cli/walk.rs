@@ -131,6 +131,7 @@ fn three_robots_walk_by_one_step_goal() {
     assert!(refused(&["walk", "teapot"]).contains("`nao`, `rh0` or `teo`"));
     for wrong in [
         &["walk", "rh0", "--plan", "out left", "--steps", "3"][..],
+        &["walk", "rh0", "--thesis", "t.csv", "--repair"],
         &["walk", "teo", "--goal", "1,0", "--plan", "in left"],
     ] {
         assert_eq!(run(wrong).code, 2, "{wrong:?}");
