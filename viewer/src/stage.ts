@@ -146,6 +146,8 @@ export class Stage {
   /** The position of a point on the screen [pixels]. */
   onScreen(point: [number, number, number]): [number, number] {
     const { left, top, width, height } = this.renderer.domElement.getBoundingClientRect();
+    // A frame that is still to be drawn would do this.
+    this.camera.updateMatrixWorld();
     const { x, y } = new Vector3(...point).project(this.camera);
     return [left + (0.5 + 0.5 * x) * width, top + (0.5 - 0.5 * y) * height];
   }

@@ -197,10 +197,14 @@ test("a flat map is drawn where it is, in the colours of its legend", async () =
   const { reached, answers } = JSON.parse(readFileSync(inFolder("flat.json"), "utf8"));
   assert.equal(await count(flat), reached.filter((count) => count > 0).length);
   for (const name of ["Robot", "Axes"]) await flat.getByRole("button", { name, exact: true }).click();
-  await flat.getByRole("button", { name: "Top" }).click();
   await flat.evaluate(() => groebot.reach.show({ quantity: "answers" }));
   const where = reached.map((_, place) => [-1 + Math.floor(place / 9) / 4, -1 + (place % 9) / 4, 0.3]);
-  const seen = await pixels(flat, await flat.evaluate((where) => where.map((point) => groebot.screen(point)), where));
+  const points = await flat.getByRole("button", { name: "Top" }).evaluate((button, where) => {
+    button.click();
+    // Before the view is drawn.
+    return where.map((point) => groebot.screen(point));
+  }, where);
+  const seen = await pixels(flat, points);
   const most = Math.max(...answers);
   seen.forEach((own, place) => {
     const off = Math.max(...colour(answers[place] / most).map((value, part) => Math.abs(value - own[part])));
