@@ -88,6 +88,19 @@ fn read_rpy(table: Table<'_>) -> Result<Placement> {
     Ok(Placement::turned(std::array::from_fn(|i| turns[i])))
 }
 
+/// The rotation of `rpy` \[rad\], any angles, and these angles: read as those of a URDF.
+fn read_radians(table: Table<'_>, node: Node<'_>) -> Result<(Placement, Option<ExactVector>)> {
+    if table.optional("rpy_deg").is_some() {
+        return Err(node.error(ErrorKind::BadValue, "`rpy` and `rpy_deg` are given; give one"));
+    }
+    let rpy: ExactVector = node.exact_vector()?;
+    let turns: Vec<Turn> = rpy
+        .iter()
+        .map(|angle| Turn::from_radians(angle).map_err(|error| node.place(error)))
+        .collect::<Result<_>>()?;
+    Ok((Placement::turned(std::array::from_fn(|i| turns[i])), Some(rpy)))
+}
+
 fn read_actuator(table: Table<'_>) -> Result<Actuator> {
     table.deny_unknown(&["name", "joints", "ratios"])?;
     let joints = table.required("joints")?.texts()?;
@@ -192,9 +205,13 @@ impl Reader {
     }
 
     fn origin(&self, table: Table<'_>) -> Result<Origin> {
-        table.deny_unknown(&["xyz", "rpy_deg"])?;
+        table.deny_unknown(&["xyz", "rpy_deg", "rpy"])?;
         let xyz = table.optional("xyz").map_or(Ok(ExactVector::default()), |node| self.lengths(node))?;
-        Ok(Placement { origin: xyz, ..read_rpy(table)? }.into())
+        let (turned, rpy) = match table.optional("rpy") {
+            Some(node) => read_radians(table, node)?,
+            None => (read_rpy(table)?, None),
+        };
+        Ok(Origin { placement: Placement { origin: xyz, ..turned }, rpy })
     }
 
     /// Lengths in metres, exactly.

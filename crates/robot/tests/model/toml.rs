@@ -33,6 +33,27 @@ fn the_documented_example_is_read() {
     assert_eq!(tip.tip().point, ["0", "0.02", "0.0831"].map(exact));
 }
 
+/// `rpy` in radians is read as that of a URDF: any angle, and 1.5708 as a quarter turn with the number kept.
+#[test]
+fn angles_in_radians_are_those_of_a_urdf() {
+    let toml = |origin: &str| {
+        Robot::from_toml(&format!(
+            "name = \"r\"\n[[link]]\nname = \"a\"\n[[frame]]\nname = \"b\"\non = \"a\"\norigin = {origin}"
+        ))
+    };
+    for rpy in [["1.5708", "0", "-0.3"], ["0.1", "-2.25", "3.14159"], ["0", "0", "1.5707963267948966"]] {
+        let urdf = format!(
+            "<robot name=\"r\"><link name=\"a\"/><link name=\"b\"/><joint name=\"j\" type=\"fixed\"><parent link=\"a\"/>\
+             <child link=\"b\"/><origin xyz=\"1 2 3\" rpy=\"{}\"/></joint></robot>",
+            rpy.join(" ")
+        );
+        let read = toml(&format!("{{ xyz = [1, 2, 3], rpy = [{}] }}", rpy.join(", "))).unwrap();
+        assert_eq!(read.joints()[0].origin, Robot::from_urdf(&urdf).unwrap().joints()[0].origin, "{rpy:?}");
+    }
+    let both = toml("{ rpy = [0, 0, 0.5], rpy_deg = [0, 0, 90] }").unwrap_err();
+    assert_eq!((both.kind(), both.line()), (ErrorKind::BadValue, Some(6)));
+}
+
 /// A capsule between two points has its ends there, in any direction.
 #[test]
 fn a_capsule_is_between_its_ends() {

@@ -1,0 +1,128 @@
+"""Compares forward kinematics of groebot's named robots with Pinocchio's of other descriptions; writes index.toml.
+
+    check.py [NAME ...]     all robots, or those named: prints the differences. --write: writes the index too
+
+A difference is the greatest of any entry of the pose (metres, entries of the rotation) at 100 joint vectors, uniform within the limits.
+The frames and zero positions of the other description are taken as they are. If the poses then differ, those are fitted (align.py).
+"""
+
+import json
+import math
+import os
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import numpy
+
+import align
+import descriptions
+
+HERE = Path(__file__).resolve().parent
+ROBOTS = HERE.parents[1] / "crates" / "robot" / "src" / "robots"
+GROEBOT = os.environ.get("GROEBOT", str(HERE.parents[1] / "target" / "release" / "groebot"))
+COUNT = 100
+TOLERANCE = 1e-3
+"""Descriptions that round lengths to millimetres differ by less."""
+
+
+class Ours:
+    """A robot of the data folder, by the program's forward kinematics."""
+
+    def __init__(self, entry):
+        self.path = ROBOTS / "data" / entry.get("file", f"{entry['name']}.toml")
+        prefix = entry.get("prefix", "")
+        strip = lambda name: name.removeprefix(prefix)
+        data = tomllib.loads(self.path.read_text())
+        self.arguments = ["--base", strip(entry["base"]), "--tip", strip(entry["tip"])] if "link" in data else []
+        joints = [joint for joint in data["joint"] if joint["type"] != "fixed"]
+        self.slides = [joint["type"] == "prismatic" for joint in joints]
+        ends = [joint.get("limits", (-math.pi, math.pi)) for joint in joints]
+        self.low, self.high = numpy.array(ends, dtype=float).T
+        self.count = len(joints)
+
+    def poses(self, values):
+        """base_from_tip at each row of `values`."""
+        rows = "\n".join(",".join(repr(float(value)) for value in row) for row in values)
+        command = [GROEBOT, "fk", str(self.path), *self.arguments, "--json"]
+        done = subprocess.run(command, input=rows + "\n", capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            raise RuntimeError(done.stderr.strip()[:300])
+        decoder, text, out = json.JSONDecoder(), done.stdout, []
+        while text.strip():
+            value, end = decoder.raw_decode(text.lstrip())
+            text = text.lstrip()[end:]
+            out += value if isinstance(value, list) else [value]
+        return [numpy.array(value["matrix"]) for value in out]
+
+    def draw(self):
+        return numpy.random.default_rng(7).uniform(self.low, self.high, (COUNT, self.count))
+
+
+def difference(ours, name):
+    """The greatest difference from the description, and whether frames were fitted."""
+    specification = name.split()
+    theirs = descriptions.chain(*(specification + ["", ""])[:3])
+    if len(theirs.joints) != ours.count:
+        raise ValueError(f"{len(theirs.joints)} joints instead of {ours.count}")
+    values = ours.draw()
+    poses = ours.poses(values)
+    plain = max(abs(theirs.forward(q) - pose).max() for q, pose in zip(values, poses))
+    if plain < TOLERANCE:
+        return plain, ""
+    probes = numpy.concatenate([numpy.zeros((1, ours.count)), 0.5 * numpy.eye(ours.count)])
+    known = {tuple(q): pose for q, pose in zip(probes, ours.poses(probes))}
+    fitted, offsets = align.fit(lambda q: known[tuple(q)], theirs.forward, ours.count)
+    return max(abs(fitted(q) - pose).max() for q, pose in zip(values, poses)), "fitted"
+
+
+def check(entry):
+    """The state of a robot: the best of its other descriptions."""
+    ours = Ours(entry)
+    results = []
+    for name in entry["check"]:
+        try:
+            results.append((*difference(ours, name), name))
+        except Exception as error:
+            print(f"  {entry['name']}: {name}: {error!r}"[:300], flush=True)
+    if not entry["check"]:
+        ours.poses(ours.draw()[:1])
+    return results
+
+
+def line(entry, results):
+    """The entry of the index."""
+    keep = {key: entry[key].removeprefix(entry.get("prefix", "")) if key in ("base", "tip") else entry[key] for key in ("name", "vendor", "model", "kind", "base", "tip")}
+    keep["task"] = entry.get("task", "pose")
+    out = ", ".join(f'{key} = "{value}"' for key, value in keep.items())
+    passed = [result for result in results if result[0] < TOLERANCE]
+    if passed:
+        greatest, how, name = passed[0]
+        out += f', checked = "{descriptions.version(name)}", difference = {greatest:.1e}'
+        out += ", fitted = true" if how else ""
+    return f" {{{out}}},"
+
+
+def main(arguments):
+    wanted = [argument for argument in arguments if not argument.startswith("--")]
+    entries = [entry for entry in tomllib.loads((HERE / "manifest.toml").read_text())["robot"] if not wanted or entry["name"] in wanted]
+    lines, counts = [], [0, 0]
+    for entry in entries:
+        try:
+            results = check(entry)
+        except Exception as error:
+            print(f"{entry['name']}: FAILED {error!r}"[:400], flush=True)
+            continue
+        lines.append(line(entry, results))
+        if "--write" in arguments:
+            (ROBOTS / "index.toml").write_text("robot = [\n" + "\n".join(lines) + "\n]\n")
+        good = any(result[0] < TOLERANCE for result in results)
+        counts[0 if good else 1] += 1
+        said = "; ".join(f"{value:.1e} {how} {name.split('/')[-1]}" for value, how, name in results)
+        print(f"{entry['name']:24} {'checked' if good else 'UNCHECKED'} {said}", flush=True)
+    print(f"{counts[0]} checked, {counts[1]} unchecked")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
