@@ -94,10 +94,8 @@ fn read_radians(table: Table<'_>, node: Node<'_>) -> Result<(Placement, Option<E
         return Err(node.error(ErrorKind::BadValue, "`rpy` and `rpy_deg` are given; give one"));
     }
     let rpy: ExactVector = node.exact_vector()?;
-    let turns: Vec<Turn> = rpy
-        .iter()
-        .map(|angle| Turn::from_radians(angle).map_err(|error| node.place(error)))
-        .collect::<Result<_>>()?;
+    let turns: Vec<Turn> =
+        rpy.iter().map(|angle| Turn::from_radians(angle).map_err(|error| node.place(error))).collect::<Result<_>>()?;
     Ok((Placement::turned(std::array::from_fn(|i| turns[i])), Some(rpy)))
 }
 
