@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 
+use super::named::CacheArguments;
 use super::output::{Force, Kind, Output};
 use super::solve::read_program;
 use super::{Outcome, console, explain};
@@ -28,12 +29,15 @@ The first comment of each file describes its use. See also docs/generated_code.m
 docs/ikfast.md.";
 
 /// Generates the solver of a derivation as C, Rust or IKFast C++, or its formulas as LaTeX
-#[derive(clap::Args)]
+#[derive(Clone, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// A folder that `groebot derive` wrote, or its 5_program.json; for LaTeX a folder or an input file
+    /// A folder that `groebot derive` wrote, or its 5_program.json, or a robot's name (`groebot robots`); for LaTeX a
+    /// folder, an input file or a name
     #[arg(value_name = "DERIVATION")]
     derivation: PathBuf,
+    #[command(flatten)]
+    cache: CacheArguments,
     /// The language
     #[arg(long, value_name = "LANGUAGE")]
     lang: Language,
@@ -72,6 +76,8 @@ enum Language {
 /// Generates the code and writes it.
 pub fn run(arguments: &Arguments) -> Outcome {
     arguments.refuse_idle_options()?;
+    let derivation = arguments.cache.derivation(&arguments.derivation)?;
+    let arguments = &Arguments { derivation: derivation.path().to_owned(), ..arguments.clone() };
     let Some(path) = &arguments.output else { return console::print(&arguments.text()?) };
     let in_two = arguments.lang == Language::C && !arguments.single_file;
     let header = if in_two { Some(header_of(path)?) } else { None };

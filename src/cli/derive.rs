@@ -27,6 +27,7 @@ const FAR: f64 = 5.0;
 const EXAMPLES: &str = "Examples:
   groebot derive derivations/nao_leg_sagittal          writes into that folder
   groebot derive arm.toml                              writes into the folder arm
+  groebot derive ur10e                                 a robot by name; writes into the folder ur10e
   groebot derive arm.toml --out /tmp/arm --time 60     writes into /tmp/arm; fails after 60 s
   groebot derive derivations/ur5_calibrated --thin     writes the certificate, and hashes of the outputs
 
@@ -42,12 +43,13 @@ again; --full writes all files.";
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
     /// A mechanism's folder with its 0_chain.toml, 0_system.toml, 0_robot.urdf or 0_coupled.toml, or an input file; `-`
-    /// for standard input, with --out
+    /// for standard input, with --out; or a robot's name (`groebot robots`)
     #[arg(value_name = "DIR-or-FILE")]
     input: PathBuf,
     #[command(flatten)]
     ends: IdealEndArguments,
-    /// The output folder (default: the mechanism's folder, or the folder `foo` for `foo.toml`)
+    /// The output folder (default: the mechanism's folder, or the folder `foo` for `foo.toml` and for a robot
+    /// `foo`)
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// The time budget [s] (default: none)

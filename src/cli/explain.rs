@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::ends::{EndArguments, TipLink};
 use super::files::is_derived;
+use super::named::CacheArguments;
 use super::output::{Force, Kind};
 use super::{Outcome, console};
 use crate::Watch;
@@ -23,9 +24,11 @@ const EXAMPLES: &str = "Examples:
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// A folder that `groebot derive` wrote, or an input file
+    /// A folder that `groebot derive` wrote, an input file, or a robot's name (`groebot robots`)
     #[arg(value_name = "DERIVATION")]
     input: PathBuf,
+    #[command(flatten)]
+    cache: CacheArguments,
     #[command(flatten)]
     ends: EndArguments,
     /// Print LaTeX instead of Markdown: an article that needs only amsmath and geometry
@@ -41,10 +44,11 @@ pub struct Arguments {
 /// Proves, explains, prints.
 pub fn run(arguments: &Arguments) -> Outcome {
     let output = arguments.force.output([arguments.input.as_path()]).expects([arguments.output.as_ref()])?;
-    let (source, mut document) = proved_document(&arguments.input, &arguments.ends.ends()?)?;
+    let derivation = arguments.cache.derivation(&arguments.input)?;
+    let (source, mut document) = proved_document(derivation.path(), &arguments.ends.ends()?)?;
     console::print_notes(&source.notes);
     // A stored proof has its own tip link.
-    let tip = TipLink::of_source(&source).filter(|_| !is_derived(&arguments.input));
+    let tip = TipLink::of_source(&source).filter(|_| !is_derived(derivation.path()));
     document.parts.splice(..0, tip.as_ref().and_then(TipLink::paragraph));
     let text = if arguments.latex { document.to_latex() } else { document.to_markdown() };
     match &arguments.output {

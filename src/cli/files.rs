@@ -9,7 +9,7 @@ use super::output::{Force, is_same_file};
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_ik::codegen;
 use groebot_ik::derive::problem::ends::TASK_NAME;
-use groebot_ik::derive::problem::input::INPUT_NAMES;
+use groebot_ik::derive::problem::input::{INPUT_NAMES, robot_name};
 use groebot_ik::derive::report::stages;
 use groebot_ik::derive::{Derivation, Ends, Source};
 use groebot_ik::folder::{CERTIFICATE, CHECKS, DYNAMICS, OUTPUTS, Written, derived, thin};
@@ -151,6 +151,7 @@ pub fn destination(source: &Source, input: &Path, out: Option<&Path>) -> Result<
         Some(out) => out.to_owned(),
         None if input.is_dir() || named => file.parent().unwrap_or(Path::new("")).to_owned(),
         None if file.extension().is_some() => file.with_extension(""),
+        None if robot_name(input).is_some() => input.to_owned(),
         None if is_stdin(file) => {
             let text = "standard input has no folder for the files; give one by --out";
             return Err(Error::new(ErrorKind::BadValue, text).in_file(file));

@@ -37,8 +37,10 @@ mod ik;
 mod info;
 mod json;
 mod moving;
+mod named;
 mod navigate;
 mod output;
+mod overview;
 mod page;
 mod part;
 mod path;
@@ -65,13 +67,14 @@ use std::ffi::OsString;
 use std::io::Write;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{FromArgMatches, Parser, Subcommand};
 
 use crate::{Error, ErrorKind};
 use console::Paint;
 use groebot_algebra::escape;
 
 const EXAMPLES: &str = "Examples:
+  groebot robots
   groebot derive derivations/nao_leg_sagittal
   groebot solve derivations/nao_leg_sagittal --target 60,150
   groebot check derivations/nao_leg_sagittal
@@ -111,6 +114,7 @@ enum Command {
     Check(check::Arguments),
     Explain(explain::Arguments),
     Codegen(codegen::Arguments),
+    Robots(named::Arguments),
     Info(info::Arguments),
     Plan(plan::Arguments),
     Ik(ik::Arguments),
@@ -128,6 +132,7 @@ enum Command {
     Follow(follow::Arguments),
     Simulate(simulate::Arguments),
     View(view::Arguments),
+    Completions(overview::Arguments),
 }
 
 /// The reason why a subcommand ends early.
@@ -170,7 +175,7 @@ pub fn run() -> ExitCode {
 /// Runs the tool on `arguments`, of which the first is the program's name, inside another process; returns the exit
 /// status.
 pub fn run_on(arguments: impl IntoIterator<Item = OsString>) -> u8 {
-    let cli = match Cli::try_parse_from(arguments) {
+    let cli = match parsed(arguments) {
         Ok(cli) => cli,
         Err(usage) => {
             return report_usage(&usage);
@@ -184,6 +189,7 @@ pub fn run_on(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Check(arguments) => check::run(arguments),
         Command::Explain(arguments) => explain::run(arguments),
         Command::Codegen(arguments) => codegen::run(arguments),
+        Command::Robots(arguments) => named::run(arguments),
         Command::Info(arguments) => info::run(arguments),
         Command::Plan(arguments) => plan::run(arguments),
         Command::Ik(arguments) => ik::run(arguments),
@@ -201,8 +207,14 @@ pub fn run_on(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Follow(arguments) => follow::run(arguments),
         Command::Simulate(arguments) => simulate::run(arguments),
         Command::View(arguments) => view::run(arguments),
+        Command::Completions(arguments) => overview::run(arguments),
     };
     status(&outcome)
+}
+
+/// Parses a command line.
+fn parsed(arguments: impl IntoIterator<Item = OsString>) -> std::result::Result<Cli, clap::Error> {
+    overview::command().try_get_matches_from(arguments).and_then(|matches| Cli::from_arg_matches(&matches))
 }
 
 /// Prints help, the version or an error in the arguments; returns the exit status.

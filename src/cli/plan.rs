@@ -120,30 +120,7 @@ impl Mechanism {
 
     fn source(&self) -> Result<Source> {
         let ends = self.ends.ends()?;
-        if let Some(chain) = self.known_robot()? {
-            return Source::of_chain(self.ends.ask(chain)?, &ends);
-        }
         Source::of(InputFile::read(&self.input)?, &ends)
-    }
-
-    /// A robot of [`robots`], if no file has its name.
-    fn known_robot(&self) -> Result<Option<Chain>> {
-        let name = self.input.to_string_lossy();
-        if is_stdin(&self.input)
-            || self.input.exists()
-            || self.input.components().count() != 1
-            || self.input.extension().is_some()
-        {
-            return Ok(None);
-        }
-        let known = robots::by_name(&name);
-        if known.is_none() && !Path::new(&self.input).exists() {
-            let names: Vec<&str> = robots::ALL.iter().map(|robot| robot.name()).collect();
-            let text =
-                format!("`{name}` is neither a file nor a robot of groebot; the robots are {}", names.join(", "));
-            return Err(Error::new(ErrorKind::UnknownName, text));
-        }
-        Ok(known)
     }
 }
 

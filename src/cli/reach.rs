@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use nalgebra::Point3;
 
 use super::moving::ends;
+use super::named::CacheArguments;
 use super::output::{Force, Kind};
 use super::progress::{Budget, Session};
 use super::solve::read_program;
@@ -43,8 +44,10 @@ manipulability (of each orientation that of its best solution).";
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// A folder that `groebot derive` wrote, or its 5_program.json
+    /// A folder that `groebot derive` wrote, or its 5_program.json, or a robot's name (`groebot robots`)
     derivation: PathBuf,
+    #[command(flatten)]
+    cache: CacheArguments,
     /// The grid in x, in the derivation's unit of length (default: 21 points over the workspace)
     #[arg(long, value_name = "FROM:TO:COUNT", value_parser = axis, allow_hyphen_values = true)]
     x: Option<Axis>,
@@ -87,12 +90,13 @@ pub struct Arguments {
 
 /// Computes the map.
 pub fn run(arguments: &Arguments) -> Outcome {
-    let file = &arguments.derivation;
+    let derivation = arguments.cache.derivation(&arguments.derivation)?;
+    let file = derivation.path();
     if let Some(out) = arguments.out.as_ref().filter(|out| !ends(out, "json") && !ends(out, "csv")) {
         let text = "a map is written as JSON or CSV; end its name in .json or .csv";
         return Err(Error::new(ErrorKind::BadValue, text).in_file(out).into());
     }
-    let output = arguments.force.output([file.as_path()]);
+    let output = arguments.force.output([file]);
     let output = output.expects([arguments.out.as_ref(), arguments.plot.as_ref()])?;
     let (program, chain) = (read_program(file)?, chain(file)?);
     let request = arguments.request(&program, chain.as_ref()).map_err(|error| error.in_file(file))?;

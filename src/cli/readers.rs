@@ -7,12 +7,10 @@ use std::ffi::OsString;
 use std::io::BufRead;
 use std::path::Path;
 
-use clap::Parser;
-
 use super::columns::Columns;
 use super::forms::Forms;
 use super::targets::{Reader, STDIN};
-use super::{Cli, fk, floor, follow, identify, ik};
+use super::{fk, floor, follow, identify, ik};
 use crate::Result;
 use groebot_algebra::escape;
 use groebot_humanoid::gait::Footprint;
@@ -27,7 +25,7 @@ use groebot_robot::spatial::Pose;
 /// # Errors
 /// The text that is shown instead of running a command: help, the version, or an error in the arguments.
 pub fn command_line(arguments: impl IntoIterator<Item = OsString>) -> std::result::Result<(), String> {
-    Cli::try_parse_from(arguments).map(drop).map_err(|usage| escape::message(&usage.render().to_string()))
+    super::parsed(arguments).map(drop).map_err(|usage| escape::message(&usage.render().to_string()))
 }
 
 /// Reads the targets of a table for `groebot solve`: the inputs of `program`, by row.

@@ -8,6 +8,7 @@ use super::arcs::{ArcOptions, ArcQuestion};
 use super::closest::Search;
 use super::files::is_derived;
 use super::forms::Forms;
+use super::named::CacheArguments;
 use super::scanned::ScanQuestion;
 use super::targets::{self, Row};
 use super::{Outcome, console};
@@ -58,8 +59,11 @@ chains that share actuators, text and JSON of a --target name the chain that fai
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// A folder that `groebot derive` wrote, or its 5_program.json; `-` for that file from standard input
+    /// A folder that `groebot derive` wrote, or its 5_program.json; `-` for that file from standard input; or a robot's
+    /// name (`groebot robots`)
     derivation: PathBuf,
+    #[command(flatten)]
+    cache: CacheArguments,
     /// A target, numbers separated by commas (repeatable); `-`, or no target: CSV from standard input
     #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true)]
     target: Vec<String>,
@@ -91,7 +95,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
     if let Some(length) = arguments.length.filter(|length| !(*length > 0.0 && length.is_finite())) {
         return Err(Error::new(ErrorKind::BadValue, format!("--length is {length}; give a positive number")).into());
     }
-    let program = read_program(&arguments.derivation)?;
+    let derivation = arguments.cache.derivation(&arguments.derivation)?;
+    let program = read_program(derivation.path())?;
     let angles = if arguments.degrees { Angles::Degrees } else { Angles::Radians };
     match arguments.target.as_slice() {
         [] if io::stdin().is_terminal() => {

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::floor::{PlaceArguments, room_text};
 use super::moving::{self, Motion};
+use super::named::{CacheArguments, is_chain};
 use super::output::{Force, Kind};
 use super::progress::{Limits, Session};
 use super::solve::read_program;
@@ -41,15 +42,18 @@ robot walks while goal, furniture and the parameters of its gait are changed. Th
 self-contained HTML file that makes no network requests. The JSON of a walk has footsteps and
 phases, its CSV does not.
 
-Robots of groebot: nao, rh0, teo.";
+`groebot robots` lists the robots by name; a page of an arm or a leg shows all solutions. nao, rh0 and teo walk.";
 
 /// Writes a self-contained HTML page that shows a robot and its motion in a browser
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// A walk or a task in CSV or JSON, a robot by name, a description in URDF or TOML, or the folder of a derivation
+    /// A walk or a task in CSV or JSON, a robot by name (`groebot robots`), a description in URDF or TOML, or the folder
+    /// of a derivation
     #[arg(value_name = "WALK-or-ROBOT-or-DIR")]
     shown: PathBuf,
+    #[command(flatten)]
+    cache: CacheArguments,
     /// The walking robot, if the walk does not name a robot of groebot
     #[arg(long, value_name = "ROBOT-or-FILE")]
     robot: Option<PathBuf>,
@@ -91,7 +95,7 @@ impl Arguments {
     fn page(&self) -> Result<Page> {
         let file = &self.shown;
         let motion = moving::motion(file)?;
-        if (motion.is_some() || file.is_dir()) && (self.room.is_some() || !self.tip.is_empty()) {
+        if (motion.is_some() || file.is_dir() || is_chain(file)) && (self.room.is_some() || !self.tip.is_empty()) {
             let text = "--room and --tip are for robots at rest; leave them out for a motion or a derivation";
             return Err(Error::new(ErrorKind::BadValue, text).in_file(file));
         }
@@ -109,7 +113,7 @@ impl Arguments {
                 let text = "--robot names the walking robot, but this is not a walk; give a walk in CSV or JSON, or leave it out";
                 Err(Error::new(ErrorKind::BadValue, text).in_file(file))
             }
-            None if file.is_dir() => derivation(file),
+            None if file.is_dir() || is_chain(file) => derivation(self.cache.derivation(file)?.path()),
             None => {
                 let (robot, meshes) = moving::robot(file)?;
                 let page = Page::of_robot(&robot, self.meshes.then_some(&meshes))?;

@@ -20,6 +20,7 @@ mod identify;
 mod ik;
 mod info;
 mod interrupted;
+mod named;
 mod navigate;
 mod output;
 mod pipes;
@@ -170,7 +171,11 @@ fn fails_at(folder: &Path, names: &[&str]) {
 fn usage_and_version() {
     assert_eq!(succeed(&["--version"]).trim(), concat!("groebot ", env!("CARGO_PKG_VERSION")));
     let help = succeed(&["--help"]);
-    for word in ["derive", "solve", "check", "codegen", "info", "fk", "basis", "Examples:", "Exit status"] {
+    let words = [
+        "Kinematics:", "Algebra:", "Dynamics and control:", "Walking and navigation:", "Pictures and exchange:", "derive", "solve", "check", "codegen", "info",
+        "fk", "basis", "Options:", "Examples:", "Exit status",
+    ];
+    for word in words {
         assert!(help.contains(word), "{word}");
     }
     for wrong in [&["dance"][..], &[], &["derive"], &["derive", ".", "--time", "-1"], &["derive", ".", "--time", "nan"]]

@@ -2,6 +2,7 @@
 //! against that list ([`check`]). The writer and the check share the list, so that every written file is checked. A thin folder has a hash of each output
 //! instead of the output itself ([`Outputs`]).
 
+mod cache;
 mod check;
 mod finding;
 mod load;
@@ -13,6 +14,7 @@ mod proof_text;
 mod stored;
 mod written;
 
+pub use cache::SolverCache;
 pub use check::{Checked, check, check_by, compare, prove, prove_text};
 pub use finding::{Finding, Verdict};
 pub use load::{program, reprove};

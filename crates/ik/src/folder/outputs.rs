@@ -106,7 +106,12 @@ fn hash(file: &Written) -> String {
     } else {
         Sha256::digest(&file.bytes)
     };
-    digest.iter().fold(String::with_capacity(DIGITS), |mut text, byte| {
+    hex(&digest)
+}
+
+/// A digest as hexadecimal digits.
+pub(super) fn hex(digest: &[u8]) -> String {
+    digest.iter().fold(String::with_capacity(2 * digest.len()), |mut text, byte| {
         let _ = write!(text, "{byte:02x}");
         text
     })

@@ -1,7 +1,13 @@
-//! Robots by name: the humanoids NAO, RH0 and TEO as [`Robot`]s, and arms as [`Chain`]s: PUMA, Stanford, a polar robot,
-//! UR5, IRB 120. The numbers are in `data/*.toml` with their sources. Inferred and assumed values are marked there.
+//! Robots by name. [`LISTED`] has arms, legs, hands and humanoids of many vendors; [`by_name`] gives a chain, [`robot`] a humanoid.
+//! The numbers are in `data/*.toml` with their sources. Inferred and assumed values are marked there.
 //!
-//! All are in metres and radians. Main type: [`Known`], a chain by its name.
+//! All are in metres and radians. Main types: [`Listed`], a robot with its vendor and the check of its numbers, and [`Known`], a chain with a function of its own.
+
+mod listed;
+mod table;
+
+pub use listed::{Kind, Listed, find};
+pub use table::LISTED;
 
 use crate::kinematics::{Chain, ChainParts};
 use crate::model::Robot;
@@ -84,9 +90,10 @@ limbs! {
     nao_head: nao_v5, "Torso" to "Head", "two joints whose axes intersect at the tip: it reaches view directions only";
 }
 
-/// The chain `name`; `None` when [`ALL`] does not contain it.
+/// The chain `name` of [`ALL`] or [`LISTED`]; `None` when they do not contain it, and for a robot with several chains.
 pub fn by_name(name: &str) -> Option<Chain> {
-    ALL.iter().find(|known| known.name == name).map(Known::chain)
+    let known = ALL.iter().find(|known| known.name == name).map(Known::chain);
+    known.or_else(|| LISTED.iter().find(|listed| listed.name() == name)?.chain())
 }
 
 /// The humanoid `name`: `nao` or `nao_v5`, `rh0` or `teo`.

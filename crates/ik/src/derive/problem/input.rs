@@ -15,6 +15,7 @@ use groebot_robot::kinematics::ideal::Report;
 use groebot_robot::kinematics::{Chain, DhTable, LinkPath, TipChoice};
 use groebot_robot::model::Robot;
 use groebot_robot::model::urdf::URDF_LIMIT;
+use groebot_robot::robots::{self, Listed};
 
 /// The allowed names of the input in a mechanism's folder: a chain (or a DH table), a system, a URDF robot, coupled chains, a TOML robot.
 pub const INPUT_NAMES: [&str; 5] = ["0_chain.toml", "0_system.toml", "0_robot.urdf", COUPLED_NAME, "0_robot.toml"];
@@ -34,6 +35,33 @@ pub enum Description {
     Coupled(Box<CoupledChains>),
 }
 
+impl Description {
+    /// The file's name in a mechanism's folder.
+    fn file_name(&self, is_xml: bool) -> &'static str {
+        match self {
+            Description::Chain(_) => INPUT_NAMES[0],
+            Description::System(_) => INPUT_NAMES[1],
+            Description::Robot(_) => INPUT_NAMES[if is_xml { 2 } else { 4 }],
+            Description::Coupled(_) => COUPLED_NAME,
+        }
+    }
+}
+
+/// The name of a robot that is meant by `path`: a word without folder and extension that no file has.
+pub fn robot_name(path: &Path) -> Option<&str> {
+    let is_word = !is_stdin(path) && path.components().count() == 1 && path.extension().is_none();
+    let is_free = || path.symlink_metadata().is_err();
+    path.to_str().filter(|_| is_word && is_free())
+}
+
+/// The robot `name`, which no file has as its name.
+///
+/// # Errors
+/// As [`robots::find`].
+pub fn named_robot(name: &str) -> Result<&'static Listed> {
+    robots::find(name).map_err(|error| Error::new(error.kind(), format!("there is no such file, and {}", error.message())))
+}
+
 /// An input file and its content.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InputFile {
@@ -50,7 +78,8 @@ pub struct InputFile {
 }
 
 impl InputFile {
-    /// Reads a mechanism's folder, an input file or, as `-`, standard input. In a folder, it also reads [`TASK_NAME`].
+    /// Reads a mechanism's folder, an input file or, as `-`, standard input. In a folder, it also reads [`TASK_NAME`]. Where there is no file, `path` may be
+    /// the name of a robot in [`robots::LISTED`].
     ///
     /// Meshes and files of coupled chains that standard input names are searched from the current folder. The content decides the type:
     /// * a robot: a file `.urdf` or `.xml`, text that starts with `<`, or TOML with a `[[link]]`;
@@ -60,10 +89,13 @@ impl InputFile {
     /// * a system: other TOML.
     ///
     /// # Errors
-    /// [`ErrorKind::Io`] for a file that cannot be read; [`ErrorKind::BadValue`] for a folder without exactly one input. [`ErrorKind::Unsupported`] for
-    /// archives, JSON, YAML, tables and other files that are not descriptions. As [`decode_xml`], [`Robot::from_urdf`], [`CoupledChains::from_toml`],
+    /// [`ErrorKind::Io`] for a file that cannot be read; [`ErrorKind::UnknownName`] for a word that is neither a file nor a robot;
+    /// [`ErrorKind::BadValue`] for a folder without exactly one input. [`ErrorKind::Unsupported`] for archives, JSON, YAML, tables and other files that are not descriptions. As [`decode_xml`], [`Robot::from_urdf`], [`CoupledChains::from_toml`],
     /// [`Chain::from_dh_toml`], [`Chain::from_toml`] and [`System::from_toml`], with file and line.
     pub fn read(path: &Path) -> Result<InputFile> {
+        if let Some(name) = robot_name(path) {
+            return InputFile::of_robot(named_robot(name)?);
+        }
         let file = if path.is_dir() { input_in(path)? } else { path.to_owned() };
         let at_file = |error: Error| error.in_file(&file);
         let ends_in_xml =
@@ -80,14 +112,23 @@ impl InputFile {
         let robot = || Robot::from_urdf(&text).map(|robot| Description::Robot(robot.with_notes(notes)));
         let described = if is_xml { robot() } else { from_toml(&text, &file) };
         let description = described.map_err(|error| at_file(explained(error, &text)))?;
-        let name = match description {
-            Description::Chain(_) => INPUT_NAMES[0],
-            Description::System(_) => INPUT_NAMES[1],
-            Description::Robot(_) => INPUT_NAMES[if is_xml { 2 } else { 4 }],
-            Description::Coupled(_) => COUPLED_NAME,
-        };
         let ends = read_ends(&file)?;
-        Ok(InputFile { path: file, name, text, description, ends })
+        Ok(InputFile { path: file, name: description.file_name(is_xml), text, description, ends })
+    }
+
+    /// The description of a robot by name, as a file of this name without folder.
+    ///
+    /// # Errors
+    /// As [`InputFile::read`].
+    pub fn of_robot(listed: &Listed) -> Result<InputFile> {
+        let path = PathBuf::from(listed.name());
+        let description = from_toml(listed.text(), &path).map_err(|error| explained(error, listed.text()).in_file(&path))?;
+        let [base, tip] = listed.ends().map_or([None, None], |ends| ends.map(|link| Some(link.to_owned())));
+        // The description of a larger robot does not have the chain's name.
+        let is_larger = matches!(&description, Description::Robot(robot) if robot.name() != listed.name());
+        let name = (is_larger && listed.ends().is_some()).then(|| listed.name().to_owned());
+        let ends = Ends { base, tip, task: listed.task(), name, ..Ends::default() };
+        Ok(InputFile { name: description.file_name(false), text: listed.text().to_owned(), path, description, ends })
     }
 
     /// The path between the links of a robot for `ends`, completed by the folder's task file. `None` for other descriptions.

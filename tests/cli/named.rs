@@ -1,0 +1,99 @@
+//! Robots by name, the cache of their solvers, and completions.
+
+use std::fs;
+use std::process::Output;
+
+use serde_json::Value;
+use tempfile::{TempDir, tempdir};
+
+use super::{groebot, refused, root, run, succeed, text};
+
+/// A run in a folder of its own, with a cache of its own.
+fn run_in(folder: &TempDir, arguments: &[&str]) -> Output {
+    let mut command = groebot(arguments);
+    command.current_dir(folder.path()).env("GROEBOT_CACHE", folder.path().join("cache")).output().unwrap()
+}
+
+/// The standard output of a run that must succeed.
+fn printed(folder: &TempDir, arguments: &[&str]) -> String {
+    let output = run_in(folder, arguments);
+    assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+#[test]
+fn robots_are_listed_by_vendor() {
+    let list = succeed(&["robots"]);
+    for line in ["Universal Robots\n", "ABB\n", "  ur5 ", "unchecked\n"] {
+        assert!(list.contains(line), "{line}");
+    }
+    let only = succeed(&["robots", "Universal"]);
+    assert!(only.contains("  ur5 ") && !only.contains("ABB"));
+    assert!(refused(&["robots", "c3po"]).contains("no robot is called `c3po`"));
+}
+
+#[test]
+fn robots_are_listed_as_json() {
+    let list: Value = serde_json::from_str(&succeed(&["robots", "ur5", "--json"])).unwrap();
+    let robot = list["robots"].as_array().unwrap().iter().find(|robot| robot["name"] == "ur5").unwrap();
+    assert_eq!((robot["vendor"].as_str(), robot["kind"].as_str()), (Some("Universal Robots"), Some("arm")));
+    assert!(robot["source"].as_str().is_some_and(|source| !source.is_empty()));
+}
+
+#[test]
+fn a_name_is_solved_as_its_derivation() {
+    let folder = tempdir().unwrap();
+    let target = ["--target", "0.3,0.2,0.5"];
+    let committed = succeed(&["solve", text(&root("derivations/polar")), target[0], target[1]]);
+    for _ in 0..2 {
+        assert_eq!(printed(&folder, &["solve", "polar", target[0], target[1]]), committed);
+    }
+    let cached = fs::read_dir(folder.path().join("cache")).unwrap().count();
+    assert_eq!(cached, 1);
+}
+
+#[test]
+fn no_cache_derives_and_stores_nothing() {
+    let folder = tempdir().unwrap();
+    let code = printed(&folder, &["codegen", "polar", "--lang", "rust", "--no-cache"]);
+    assert!(code.contains("polar"));
+    assert!(!folder.path().join("cache").exists());
+}
+
+#[test]
+fn a_name_is_derived_into_a_folder_of_its_name() {
+    let folder = tempdir().unwrap();
+    printed(&folder, &["derive", "polar"]);
+    let program = fs::read(folder.path().join("polar/5_program.json")).unwrap();
+    assert_eq!(program, fs::read(root("derivations/polar/5_program.json")).unwrap());
+    // From now on the folder has this name.
+    assert!(printed(&folder, &["check", "polar"]).contains("certificate.json"));
+    assert!(!folder.path().join("cache").exists());
+}
+
+#[test]
+fn limbs_of_humanoids_have_names() {
+    let pose = |arguments: &[&str]| succeed(arguments).lines().skip(1).map(str::to_owned).collect::<Vec<_>>();
+    let q = ["--q", "0.1,0.2,-0.3,0.4,-0.2,0.1"];
+    assert_eq!(
+        pose(&["fk", "nao_left_leg", q[0], q[1]]),
+        pose(&["fk", text(&root("derivations/nao_left_leg")), q[0], q[1]])
+    );
+}
+
+#[test]
+fn an_unknown_name_is_neither_a_file_nor_a_robot() {
+    for command in [&["derive", "ur5x"][..], &["solve", "ur5x", "--target", "1"], &["info", "ur5x"], &["fk", "ur5x", "--q", "1"]] {
+        let error = refused(command);
+        assert!(error.contains("no such file") && error.contains("did you mean `ur5`?"), "{error}");
+    }
+}
+
+#[test]
+fn shells_complete_commands() {
+    for (shell, word) in [("bash", "complete -F"), ("zsh", "#compdef groebot"), ("fish", "complete -c groebot")] {
+        let script = succeed(&["completions", shell]);
+        assert!(script.contains(word) && script.contains("navigate"), "{shell}");
+    }
+    assert_eq!(run(&["completions", "cmd"]).code, 2);
+}
