@@ -72,18 +72,20 @@ def difference(ours, name):
     if plain < TOLERANCE:
         return plain, ""
     probes = numpy.concatenate([numpy.zeros((1, ours.count)), 0.5 * numpy.eye(ours.count)])
-    known = {tuple(q): pose for q, pose in zip(probes, ours.poses(probes))}
+
     fitted, offsets = align.fit(lambda q: known[tuple(q)], theirs.forward, ours.count)
     return max(abs(fitted(q) - pose).max() for q, pose in zip(values, poses)), "fitted"
 
 
 def check(entry):
-    """The state of a robot: the best of its other descriptions."""
+    """The differences from the other descriptions, until one agrees."""
     ours = Ours(entry)
     results = []
     for name in entry["check"]:
         try:
             results.append((*difference(ours, name), name))
+            if results[-1][0] < TOLERANCE:
+                break
         except Exception as error:
             print(f"  {entry['name']}: {name}: {error!r}"[:300], flush=True)
     if not entry["check"]:
@@ -98,7 +100,7 @@ def line(entry, results):
     out = ", ".join(f'{key} = "{value}"' for key, value in keep.items())
     passed = [result for result in results if result[0] < TOLERANCE]
     if passed:
-        greatest, how, name = passed[0]
+        greatest, how, name = passed[-1]
         out += f', checked = "{descriptions.version(name)}", difference = {greatest:.1e}'
         out += ", fitted = true" if how else ""
     return f" {{{out}}},"
