@@ -31,7 +31,7 @@ class Ours:
     """A robot of the data folder, by the program's forward kinematics."""
 
     def __init__(self, entry):
-        self.path = ROBOTS / "data" / entry.get("file", f"{entry['name']}.toml")
+        self.path = ROBOTS / entry.get("file", f"named/{entry['name']}.toml")
         prefix = entry.get("prefix", "")
         strip = lambda name: name.removeprefix(prefix)
         data = tomllib.loads(self.path.read_text())
@@ -72,6 +72,7 @@ def difference(ours, name):
     if plain < TOLERANCE:
         return plain, ""
     probes = numpy.concatenate([numpy.zeros((1, ours.count)), 0.5 * numpy.eye(ours.count)])
+    known = {tuple(q): pose for q, pose in zip(probes, ours.poses(probes))}
 
     fitted, offsets = align.fit(lambda q: known[tuple(q)], theirs.forward, ours.count)
     return max(abs(fitted(q) - pose).max() for q, pose in zip(values, poses)), "fitted"
@@ -95,7 +96,10 @@ def check(entry):
 
 def line(entry, results):
     """The entry of the index."""
-    keep = {key: entry[key].removeprefix(entry.get("prefix", "")) if key in ("base", "tip") else entry[key] for key in ("name", "vendor", "model", "kind", "base", "tip")}
+    keep = {key: entry[key] for key in ("name", "vendor", "model", "kind", "file", "base", "tip") if key in entry}
+    for end in ("base", "tip"):
+        if end in keep:
+            keep[end] = keep[end].removeprefix(entry.get("prefix", ""))
     keep["task"] = entry.get("task", "pose")
     out = ", ".join(f'{key} = "{value}"' for key, value in keep.items())
     passed = [result for result in results if result[0] < TOLERANCE]

@@ -1,4 +1,4 @@
-"""Writes the robots of crates/robot/src/robots/data from the descriptions that manifest.toml lists.
+"""Writes the robots of crates/robot/src/robots/named from the descriptions that manifest.toml lists.
 
     import.py [NAME ...]     all robots, or those named
 
@@ -22,7 +22,7 @@ import numpy
 import descriptions
 
 HERE = Path(__file__).resolve().parent
-DATA = HERE.parents[1] / "crates" / "robot" / "src" / "robots" / "data"
+DATA = HERE.parents[1] / "crates" / "robot" / "src" / "robots" / "named"
 HUGE = 1e4
 """Limits of more than this [rad] mean that there are none."""
 

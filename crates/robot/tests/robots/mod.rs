@@ -1,6 +1,7 @@
 //! The robots of this crate: their data compared with a second statement of the same numbers.
 
 mod figures;
+mod named;
 
 use groebot_robot::kinematics::{LengthUnit, Task};
 use groebot_robot::robots;
