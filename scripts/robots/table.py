@@ -1,0 +1,77 @@
+"""Writes docs/named_robots.md: the robots of index.toml by vendor, with source and check."""
+
+import tomllib
+from collections import Counter
+from itertools import groupby
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+ROBOTS = ROOT / "crates" / "robot" / "src" / "robots"
+PAGE = ROOT / "docs" / "named_robots.md"
+
+HEAD = """# Robots by name
+
+Use these robots by their names, without a file.
+
+This page is written by `scripts/robots/run --table` from [index.toml](../crates/robot/src/robots/index.toml).
+
+| column | meaning |
+| --- | --- |
+| joints | those between base and tip |
+| source | where the numbers are from: a package with its version and file, or a repository with its commit and file |
+| masses | the links that move have masses |
+| checked by | the package whose other description of the robot has the same forward kinematics |
+| difference | the greatest difference of any entry of the pose (metres, entries of the rotation) from Pinocchio's, at 100 joint vectors drawn uniformly within the limits |
+
+*fitted*: the other description has other frames of base and tip, other zero positions or other senses of joints. These are fitted before the
+comparison; the geometry between the joints is compared. Two packages may have copied one description of the maker: the check then shows that the numbers
+here are those, not that they are right.
+"""
+
+
+def row(entry):
+    data = tomllib.loads((ROBOTS / entry.get("file", f"named/{entry['name']}.toml")).read_text())
+    joints = [joint for joint in chain(data, entry) if joint["type"] != "fixed"]
+    masses = {link["name"] for link in data.get("link", []) if "mass" in link}
+    has_masses = bool(masses) and all(joint["child"] in masses for joint in joints)
+    checked = entry.get("checked", "unchecked")
+    difference = f"{entry['difference']:.0e}" + (", fitted" if entry.get("fitted") else "") if "checked" in entry else ""
+    cells = [f"`{entry['name']}`", entry["model"], entry["kind"], str(len(joints)), "yes" if has_masses else "", data["source"], checked, difference]
+    return "| " + " | ".join(cells) + " |"
+
+
+def chain(data, entry):
+    """The joints from base to tip; all of a file that is a chain. A leg described from the sole up has its tip above its base."""
+    if "base" not in entry:
+        return data["joint"]
+    above = {joint["child"]: joint for joint in data["joint"]}
+    above |= {frame["name"]: {"type": "fixed", "parent": frame["on"], "child": frame["name"]} for frame in data.get("frame", [])}
+
+    def path(link):
+        found = []
+        while link in above:
+            found.append(above[link])
+            link = above[link]["parent"]
+        return found
+
+    down, up = path(entry["tip"]), path(entry["base"])
+    return [joint for joint in down if joint not in up] + [joint for joint in up if joint not in down]
+
+
+def main():
+    entries = tomllib.loads((ROBOTS / "index.toml").read_text())["robot"]
+    entries.sort(key=lambda entry: (entry["vendor"].lower(), entry["name"]))
+    kinds = Counter(entry["kind"] for entry in entries)
+    checked = sum("checked" in entry for entry in entries)
+    out = [HEAD]
+    counts = ", ".join(f"{count} {kind}s" for kind, count in sorted(kinds.items()))
+    out.append(f"{len(entries)} robots: {counts}. {checked} are checked, {len(entries) - checked} are not.\n")
+    for vendor, robots in groupby(entries, key=lambda entry: entry["vendor"]):
+        out.append(f"## {vendor}\n\n| name | model | kind | joints | masses | source | checked by | difference |\n| --- | --- | --- | --: | --- | --- | --- | --- |")
+        out += [row(entry) for entry in robots]
+        out.append("")
+    PAGE.write_text("\n".join(out).rstrip() + "\n")
+
+
+if __name__ == "__main__":
+    main()
