@@ -192,8 +192,8 @@ pub mod witness {
 /// Folders of mechanisms: their files, and the check of a stored folder.
 pub mod folder {
     pub use groebot_ik::folder::{
-        CERTIFICATE, CHECKS, DYNAMICS, DYNAMICS_TEXT, Finding, PROGRAM, Stored, Verdict, check, check_by, derived,
-        program, prove_text, reprove,
+        CERTIFICATE, CHECKS, DYNAMICS, DYNAMICS_TEXT, Finding, PROGRAM, SolverCache, Stored, Verdict, check, check_by,
+        derived, program, prove_text, reprove,
     };
 }
 

@@ -61,7 +61,7 @@ impl Robot {
         Robot::of(robot, text, [base, tip], floating, gravity)
     }
 
-    /// Returns a humanoid of groebot: nao, rh0 or teo.
+    /// Returns a robot by name, such as nao or ur10e.
     #[staticmethod]
     #[pyo3(signature = (name, base=None, tip=None, *, floating=false, gravity=None))]
     fn named(
@@ -71,13 +71,10 @@ impl Robot {
         floating: bool,
         gravity: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let unknown = || {
-            let text = format!("no robot is called `{name}`; there are nao, rh0 and teo");
-            raised(&groebot::Error::new(ErrorKind::UnknownName, text))
-        };
-        let robot = robots::robot(name).ok_or_else(unknown)?;
+        let (robot, ends) = named(name).map_err(|error| raised(&error))?;
         let text = robot.to_urdf();
-        Robot::of(robot, text, [base, tip], floating, gravity)
+        let [own_base, own_tip] = ends.map_or([None, None], |ends| ends.map(|link| Some(link.to_owned())));
+        Robot::of(robot, text, [base.or(own_base), tip.or(own_tip)], floating, gravity)
     }
 
     /// Converts the robot to URDF.
@@ -283,4 +280,20 @@ fn three(list: &Bound<'_, PyAny>) -> PyResult<Vector3<f64>> {
     let list = numbers.to_vec()?;
     finite(&list, 3, "gravity")?;
     Ok(Vector3::from_column_slice(&list))
+}
+
+/// The robot with this name, and the end links of its chain.
+fn named(name: &str) -> groebot::Result<(model::Robot, Option<[&'static str; 2]>)> {
+    if let Some(robot) = robots::robot(name) {
+        return Ok((robot, None));
+    }
+    let listed = robots::find(name)?;
+    let no_links = || {
+        let text = format!("`{name}` is known as a chain of axes without links; `Solver.named` has its kinematics");
+        groebot::Error::new(ErrorKind::Unsupported, text)
+    };
+    if listed.ends().is_none() {
+        return Err(no_links());
+    }
+    Ok((model::Robot::from_toml(listed.text())?, listed.ends()))
 }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use groebot::codegen::{rust, single_file};
 use groebot::derive::report::explain::explain;
+use groebot::robots::{Kind, LISTED, Listed};
 use groebot::solver::TaskPlacement;
 use numpy::PyArrayMethods;
 use pyo3::prelude::*;
@@ -21,6 +22,7 @@ use crate::placed::PlacedSolver;
 use crate::redundant::joint_values;
 use crate::solution::Solution;
 use crate::stored::Stored;
+use crate::work::{threads as threads_of, watched};
 use crate::{known, origin, path, redundant, rows, work};
 
 /// A closed-form inverse-kinematics solver: it returns all joint values that move the tip of a chain to a target.
@@ -32,16 +34,24 @@ pub struct Solver(pub Arc<Stored>);
 
 #[pymethods]
 impl Solver {
-    /// Returns the compiled solver with this name. `Solver.names()` lists them.
+    /// Returns the solver with this name; `Solver.names()` lists them. A solver that is not compiled into the package is derived at its first use and stored in
+    /// the user's cache folder.
     #[staticmethod]
-    fn named(name: &str) -> PyResult<Self> {
-        Stored::named(name).map(Solver::of).map_err(|error| raised(&error))
+    #[pyo3(signature = (name, *, progress=None))]
+    fn named(py: Python<'_>, name: &str, progress: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+        if let Some(known) = known::by_name(name) {
+            return Stored::known(known).map(Solver::of).map_err(|error| raised(&error));
+        }
+        watched(py, progress, threads_of(None), |watch| Stored::cached(name, watch)).map(Solver::of)
     }
 
-    /// The names of the solvers in the package.
+    /// The names of solvers: those that are compiled into the package, then those of other robots by name, unless `compiled`.
     #[staticmethod]
-    fn names() -> Vec<&'static str> {
-        known::ALL.iter().map(|known| known.name).collect()
+    #[pyo3(signature = (*, compiled=false))]
+    fn names(compiled: bool) -> Vec<&'static str> {
+        let others = LISTED.iter().filter(|robot| robot.kind() != Kind::Robot).map(Listed::name);
+        let others = others.filter(|name| !compiled && known::by_name(name).is_none());
+        known::ALL.iter().map(|known| known.name).chain(others).collect()
     }
 
     /// Reads a solver: the folder of a derivation, its `5_program.json`, or a file with the result of `to_json`. The certificate of a thin folder is proved

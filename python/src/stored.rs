@@ -5,8 +5,9 @@ use std::sync::{Arc, OnceLock};
 
 use groebot::derive::{Derivation, Source};
 use groebot::document::read_text;
-use groebot::folder::{self, PROGRAM};
+use groebot::folder::{self, PROGRAM, SolverCache};
 use groebot::kinematics::Chain;
+use groebot::robots;
 use groebot::solver::redundant::{RedundantSolver, ScanningSolver};
 use groebot::solver::{self, Condition, Placement, Program, TaskPlacement};
 use groebot::{Error, ErrorKind, Result, Watch};
@@ -117,16 +118,20 @@ impl Stored {
         scanned.into_iter().map(|joint| self.program.joints[joint].name.as_str()).collect()
     }
 
+    /// Returns the solver of a robot by name, from the user's cache.
+    ///
+    /// # Errors
+    /// [`ErrorKind::UnknownName`] with similar names; as [`SolverCache::derivation`].
+    pub fn cached(name: &str, watch: &Watch) -> Result<Self> {
+        let robot = robots::find(name)?;
+        Stored::load(&SolverCache::of_user()?.derivation(robot, watch)?)
+    }
+
     /// Returns a solver of the wheel.
     ///
     /// # Errors
-    /// [`ErrorKind::UnknownName`] with the available names.
-    pub fn named(name: &str) -> Result<Self> {
-        let unknown = || {
-            let names = known::ALL.iter().map(|known| known.name).collect::<Vec<_>>().join(", ");
-            Error::new(ErrorKind::UnknownName, format!("no solver is called `{name}`; there are {names}"))
-        };
-        let known = known::by_name(name).ok_or_else(unknown)?;
+    /// None: the wheel's own data.
+    pub fn known(known: &known::Known) -> Result<Self> {
         let origin = Origin::of("0_chain.toml", known.chain);
         let chain = Chain::from_toml(known.chain).or_else(|_| Chain::from_dh_toml(known.chain))?;
         Ok(Stored::new(Program::from_json(known.program)?, Some(chain), Some(origin), None))

@@ -97,7 +97,7 @@ def test_a_path_through_a_singular_wrist_has_no_jump(ur5, random):
         assert np.abs(path.q - route).max() < 0.5
 
 
-@pytest.mark.parametrize("name", Solver.names())
+@pytest.mark.parametrize("name", Solver.names(compiled=True))
 def test_named_solvers_find_what_made_the_target_and_travel(name, random):
     solver = Solver.named(name)
     assert solver.compiled
@@ -113,7 +113,7 @@ def test_named_solvers_find_what_made_the_target_and_travel(name, random):
 
 
 def test_a_compiled_solver_and_its_program_agree_to_the_last_bit(random):
-    for name in Solver.names():
+    for name in Solver.names(compiled=True):
         compiled = Solver.named(name)
         interpreted = Solver.from_json((DERIVATIONS / name / "5_program.json").read_text().replace(f'"{name}"', '"other"', 1))
         assert not interpreted.compiled
@@ -180,3 +180,17 @@ def test_version_and_kinds():
     with pytest.raises(groebot.GroebotError) as raised:
         Solver.named("ur6")
     assert raised.value.kind == "unknown_name" and "ur5" in str(raised.value)
+
+
+def test_a_robot_by_name_is_derived_once_and_cached(tmp_path, monkeypatch):
+    monkeypatch.setenv("GROEBOT_CACHE", str(tmp_path))
+    polar = Solver.named("polar")
+    assert len(list(tmp_path.iterdir())) == 1 and not polar.compiled
+    q = [0.3, -0.4, 0.2]
+    for solver in (polar, Solver.named("polar")):
+        assert any(np.allclose(solution.q, q) for solution in solver.solve(solver.forward(q)))
+    assert len(list(tmp_path.iterdir())) == 1
+    assert {"polar", "ur5", "teo_leg"} <= set(Solver.names()) and "nao" not in Solver.names()
+    assert "polar" not in Solver.names(compiled=True)
+    with pytest.raises(groebot.GroebotError, match="did you mean `polar`"):
+        Solver.named("polarr")

@@ -53,7 +53,7 @@ def test_a_notebook_shows_the_page_itself(opened, monkeypatch):
     assert len(opened) == 1
 
 
-@pytest.mark.parametrize("name", Solver.names())
+@pytest.mark.parametrize("name", Solver.names(compiled=True))
 def test_every_named_solver_has_a_page(name, tmp_path, opened):
     view = Solver.named(name).view(tmp_path / "page.html", open=False)
     assert len(data_of(view.path.read_text())["limbs"]) == 1 and opened == []

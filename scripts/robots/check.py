@@ -1,6 +1,6 @@
 """Compares forward kinematics of groebot's named robots with Pinocchio's of other descriptions; writes index.toml.
 
-    check.py [NAME ...]     all robots, or those named: prints the differences. --write: writes the index too
+    check.py [NAME ...]     all robots, or those named: prints the differences. --write: writes their lines of the index too
 
 A difference is the greatest of any entry of the pose (metres, entries of the rotation) at 100 joint vectors, uniform within the limits.
 The frames and zero positions of the other description are taken as they are. If the poses then differ, those are fitted (align.py).
@@ -31,7 +31,7 @@ class Ours:
     """A robot of the data folder, by the program's forward kinematics."""
 
     def __init__(self, entry):
-        self.path = ROBOTS / "data" / entry.get("file", f"{entry['name']}.toml")
+        self.path = ROBOTS / entry.get("file", f"named/{entry['name']}.toml")
         prefix = entry.get("prefix", "")
         strip = lambda name: name.removeprefix(prefix)
         data = tomllib.loads(self.path.read_text())
@@ -73,17 +73,20 @@ def difference(ours, name):
         return plain, ""
     probes = numpy.concatenate([numpy.zeros((1, ours.count)), 0.5 * numpy.eye(ours.count)])
     known = {tuple(q): pose for q, pose in zip(probes, ours.poses(probes))}
+
     fitted, offsets = align.fit(lambda q: known[tuple(q)], theirs.forward, ours.count)
     return max(abs(fitted(q) - pose).max() for q, pose in zip(values, poses)), "fitted"
 
 
 def check(entry):
-    """The state of a robot: the best of its other descriptions."""
+    """The differences from the other descriptions, until one agrees."""
     ours = Ours(entry)
     results = []
     for name in entry["check"]:
         try:
             results.append((*difference(ours, name), name))
+            if results[-1][0] < TOLERANCE:
+                break
         except Exception as error:
             print(f"  {entry['name']}: {name}: {error!r}"[:300], flush=True)
     if not entry["check"]:
@@ -93,36 +96,52 @@ def check(entry):
 
 def line(entry, results):
     """The entry of the index."""
-    keep = {key: entry[key].removeprefix(entry.get("prefix", "")) if key in ("base", "tip") else entry[key] for key in ("name", "vendor", "model", "kind", "base", "tip")}
+    keep = {key: entry[key] for key in ("name", "vendor", "model", "kind", "file", "base", "tip") if key in entry}
+    for end in ("base", "tip"):
+        if end in keep:
+            keep[end] = keep[end].removeprefix(entry.get("prefix", ""))
     keep["task"] = entry.get("task", "pose")
     out = ", ".join(f'{key} = "{value}"' for key, value in keep.items())
     passed = [result for result in results if result[0] < TOLERANCE]
     if passed:
-        greatest, how, name = passed[0]
+        greatest, how, name = passed[-1]
         out += f', checked = "{descriptions.version(name)}", difference = {greatest:.1e}'
         out += ", fitted = true" if how else ""
     return f" {{{out}}},"
 
 
+def write(entries, lines):
+    """Writes the index: the new lines, and those of other robots as they were."""
+    index = ROBOTS / "index.toml"
+    before = index.read_text().splitlines()[1:-1] if index.exists() else []
+    known = {line.split('"')[1]: line for line in before} | {line.split('"')[1]: line for line in lines}
+    kept = [known[entry["name"]] for entry in entries if entry["name"] in known]
+    index.write_text("robot = [\n" + "\n".join(kept) + "\n]\n")
+
+
 def main(arguments):
     wanted = [argument for argument in arguments if not argument.startswith("--")]
-    entries = [entry for entry in tomllib.loads((HERE / "manifest.toml").read_text())["robot"] if not wanted or entry["name"] in wanted]
-    lines, counts = [], [0, 0]
+    entries = tomllib.loads((HERE / "manifest.toml").read_text())["robot"]
+    lines, counts = [], [0, 0, 0]
     for entry in entries:
+        if wanted and entry["name"] not in wanted:
+            continue
         try:
             results = check(entry)
         except Exception as error:
+            counts[2] += 1
             print(f"{entry['name']}: FAILED {error!r}"[:400], flush=True)
             continue
         lines.append(line(entry, results))
-        if "--write" in arguments:
-            (ROBOTS / "index.toml").write_text("robot = [\n" + "\n".join(lines) + "\n]\n")
         good = any(result[0] < TOLERANCE for result in results)
         counts[0 if good else 1] += 1
         said = "; ".join(f"{value:.1e} {how} {name.split('/')[-1]}" for value, how, name in results)
         print(f"{entry['name']:24} {'checked' if good else 'UNCHECKED'} {said}", flush=True)
-    print(f"{counts[0]} checked, {counts[1]} unchecked")
+        if "--write" in arguments:
+            write(entries, lines)
+    print(f"{counts[0]} checked, {counts[1]} unchecked, {counts[2]} failed")
+    return 1 if counts[2] else 0
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    sys.exit(main(sys.argv[1:]))

@@ -72,7 +72,12 @@ def version(name):
 def urdf(name):
     """The URDF of a description; xacro is expanded."""
     path = locate(name)
+    if path.suffix == ".xml":
+        from mjcf import Reader
+
+        return ElementTree.tostring(Reader(path).urdf(), encoding="unicode")
     text = path.read_text(encoding="utf-8", errors="replace")
+    text = re.sub(r"</?(gazebo|ros2_control)\b.*?</(gazebo|ros2_control)>", "", text, flags=re.S)
     return _expanded(path) if "<xacro:" in text else text
 
 
@@ -106,6 +111,8 @@ def chain(name, base, tip):
         return _ssik(file)
     if file.endswith(".py"):
         return serial(*_table(locate(name), base))
+    if file.endswith(".rs"):
+        return serial(*_opw(re.search(rf"fn {base}\(.*?\n    }}", locate(name).read_text(), re.S).group(0)))
     if file.endswith(".yaml"):
         return serial(*_opw(locate(name).read_text()))
     model = _model(name)
@@ -116,10 +123,8 @@ def chain(name, base, tip):
 
 @cache
 def _model(name):
-    path = None
     if name.endswith(".xml"):
-        path = str(locate(name))
-        return pinocchio.buildModelFromMJCF(path)
+        return pinocchio.buildModelFromMJCF(str(locate(name)))
     root = ElementTree.fromstring(urdf(name).encode())
     for element in root.iter("joint"):
         if element.find("limit") is None and element.get("type") == "revolute":
@@ -229,7 +234,7 @@ def _table(path, name):
     )
     scope = {
         **vars(toolbox), "rtb": toolbox, "np": numpy, "numpy": numpy, "pi": math.pi, "math": math, "os": os, "UTSMeshRobot": _Recorder,
-        "DHRobot3D": _Recorder, "SE3": lambda *a, **k: numpy.eye(4), "cos": math.cos, "sin": math.sin, "radians": math.radians,
+        "DHRobot3D": _Recorder, "spb": _Recorder(), "transl": lambda *a, **k: numpy.eye(4), "trotx": lambda *a, **k: numpy.eye(4), "SE3": lambda *a, **k: numpy.eye(4), "cos": math.cos, "sin": math.sin, "radians": math.radians,
         "__file__": str(path), "__name__": "table", "zeros": numpy.zeros, "sqrt": math.sqrt, "MeshDHRobot": _Recorder,
     }
     _Recorder.links = None

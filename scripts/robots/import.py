@@ -1,10 +1,11 @@
-"""Writes the robots of crates/robot/src/robots/data from the descriptions that manifest.toml lists.
+"""Writes the robots of crates/robot/src/robots/named from the descriptions that manifest.toml lists.
 
     import.py [NAME ...]     all robots, or those named
 
 A chain from base to tip becomes a robot in TOML: its joints with origins, axes, limits, speeds and efforts, its links with masses where
-the description has them. Numbers are the decimals of the description, without zeros at their ends. Where the frame of inertia is turned,
-moments and products of inertia are those of the description turned into the link's frame, to nine digits.
+the description has them. Numbers are the decimals of the description, without zeros at their ends; masses, centres
+and moments have at most seven digits. Where the frame of inertia is turned,
+moments and products of inertia are those of the description turned into the link's frame, to seven digits.
 """
 
 import copy
@@ -21,7 +22,7 @@ import numpy
 import descriptions
 
 HERE = Path(__file__).resolve().parent
-DATA = HERE.parents[1] / "crates" / "robot" / "src" / "robots" / "data"
+DATA = HERE.parents[1] / "crates" / "robot" / "src" / "robots" / "named"
 HUGE = 1e4
 """Limits of more than this [rad] mean that there are none."""
 
@@ -43,6 +44,12 @@ def number(text):
     whole, part = whole.lstrip("0") or "0", part.rstrip("0")
     out = ("-" if sign == "-" else "") + whole + (f".{part}" if part else "")
     return out + (f"e{int(exponent)}" if exponent and int(exponent) else "")
+
+
+def seven(text):
+    """A decimal of a mass, a centre or a moment: at most seven digits."""
+    short = f"{float(text):.7g}"
+    return number(short if len(number(short)) < len(number(text)) else text)
 
 
 def numbers(text):
@@ -102,13 +109,14 @@ def link_line(link):
         return f' {{name = "{link.get("name")}"}},'
     place = inertial.find("origin")
     xyz, rpy = ("0 0 0", "0 0 0") if place is None else (place.get(key) or "0 0 0" for key in ("xyz", "rpy"))
-    words = [number(word) for word in inertia]
+    words = [seven(word) for word in inertia]
     if any(word != "0" for word in numbers(rpy)):
         words = turned([float(word) for word in inertia], [float(word) for word in rpy.split()])
     if not is_body([float(word) for word in words]):
         return f' {{name = "{link.get("name")}"}},'
-    centre = "" if all(word == "0" for word in numbers(xyz)) else f", centre = {vector(numbers(xyz))}"
-    return f' {{name = "{link.get("name")}", mass = {number(mass)}{centre}, inertia = {vector(words)}}},'
+    place = [seven(word) for word in xyz.split()]
+    centre = "" if all(word == "0" for word in place) else f", centre = {vector(place)}"
+    return f' {{name = "{link.get("name")}", mass = {seven(mass)}{centre}, inertia = {vector(words)}}},'
 
 
 def matrix(values):

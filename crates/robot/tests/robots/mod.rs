@@ -2,6 +2,7 @@
 
 mod figures;
 mod listed;
+mod named;
 
 use groebot_robot::kinematics::{LengthUnit, Task};
 use groebot_robot::robots;
@@ -20,9 +21,8 @@ fn every_robot_is_a_chain_of_its_name_in_metres() {
 
 #[test]
 fn every_file_of_data_is_a_robot() {
-    let files =
-        std::fs::read_dir(concat!(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."), "/crates/robot/src/robots/data"))
-            .unwrap();
+    let folders = ["data", "named"].map(|name| format!("{}/src/robots/{name}", env!("CARGO_MANIFEST_DIR")));
+    let files = folders.iter().flat_map(|folder| std::fs::read_dir(folder).unwrap());
     let texts: Vec<String> = files.map(|file| std::fs::read_to_string(file.unwrap().path()).unwrap()).collect();
     let unused = texts.iter().filter(|text| robots::LISTED.iter().all(|robot| robot.text() != text.as_str()));
     assert_eq!(unused.collect::<Vec<_>>(), Vec::<&String>::new());
