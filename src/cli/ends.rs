@@ -8,7 +8,7 @@ use groebot_algebra::number::{BigRational, parse_rational};
 use groebot_ik::derive::report::explain::{Line, Part};
 use groebot_ik::derive::{Ends, Source};
 use groebot_robot::document::shown;
-use groebot_robot::kinematics::{BaseAxis, Chain, ExactVector, LinkPath, Plane, Task, TipChoice};
+use groebot_robot::kinematics::{BaseAxis, ExactVector, LinkPath, Plane, Task, TipChoice};
 
 /// The tasks without a plane or an axis.
 const TASKS: [Task; 6] =
@@ -73,18 +73,6 @@ impl IdealEndArguments {
     pub fn ends(&self) -> Result<Ends> {
         let snap = if self.exact { Some(BigRational::default()) } else { self.snap.clone() };
         Ok(Ends { snap, ..self.plain.ends()? })
-    }
-
-    /// Sets the task of `chain`, whose source is not a URDF.
-    ///
-    /// # Errors
-    /// [`ErrorKind::BadValue`] for links; as [`Ends::apply_to`].
-    pub fn ask(&self, chain: Chain) -> Result<Chain> {
-        if self.plain.base.is_some() || self.plain.tip.is_some() {
-            let text = "--base and --tip need a URDF with links; omit them";
-            return Err(Error::new(ErrorKind::BadValue, text));
-        }
-        self.plain.ends()?.apply_to(chain)
     }
 }
 

@@ -8,10 +8,8 @@ use super::{Outcome, console, json};
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_ik::derive::planner::Choice;
 use groebot_ik::derive::{InputFile, Source};
-use groebot_robot::document::is_stdin;
 use groebot_robot::kinematics::Chain;
 use groebot_robot::kinematics::screw::ScrewSolver;
-use groebot_robot::robots;
 
 const EXAMPLES: &str = "Examples:
   groebot plan puma                              a robot of groebot by name
