@@ -13,8 +13,8 @@ use groebot_robot::document::{
 };
 use groebot_robot::kinematics::ideal::Report;
 use groebot_robot::kinematics::{Chain, DhTable, LinkPath, TipChoice};
-use groebot_robot::model::Robot;
 use groebot_robot::model::urdf::URDF_LIMIT;
+use groebot_robot::model::{ReadOptions, Robot, xacro};
 
 /// The allowed names of the input in a mechanism's folder: a chain (or a DH table), a system, a URDF robot, coupled chains, a TOML robot.
 pub const INPUT_NAMES: [&str; 5] = ["0_chain.toml", "0_system.toml", "0_robot.urdf", COUPLED_NAME, "0_robot.toml"];
@@ -53,7 +53,7 @@ impl InputFile {
     /// Reads a mechanism's folder, an input file or, as `-`, standard input. In a folder, it also reads [`TASK_NAME`].
     ///
     /// Meshes and files of coupled chains that standard input names are searched from the current folder. The content decides the type:
-    /// * a robot: a file `.urdf` or `.xml`, text that starts with `<`, or TOML with a `[[link]]`;
+    /// * a robot: a file `.urdf`, `.xml` or `.xacro`, text that starts with `<`, or TOML with a `[[link]]`;
     /// * coupled chains: TOML with a `[[chain]]`;
     /// * a DH table: TOML with a `[dh]`;
     /// * a chain: TOML with a `[tip]` or `[task]`;
@@ -64,10 +64,18 @@ impl InputFile {
     /// archives, JSON, YAML, tables and other files that are not descriptions. As [`decode_xml`], [`Robot::from_urdf`], [`CoupledChains::from_toml`],
     /// [`Chain::from_dh_toml`], [`Chain::from_toml`] and [`System::from_toml`], with file and line.
     pub fn read(path: &Path) -> Result<InputFile> {
+        InputFile::read_with(path, &ReadOptions::from_environment())
+    }
+
+    /// Same as [`InputFile::read`], but with the packages and arguments of `options` for a description in [xacro], whose expansion is [`InputFile::text`].
+    ///
+    /// # Errors
+    /// As [`InputFile::read`] and [`xacro::expand`].
+    pub fn read_with(path: &Path, options: &ReadOptions) -> Result<InputFile> {
         let file = if path.is_dir() { input_in(path)? } else { path.to_owned() };
         let at_file = |error: Error| error.in_file(&file);
         let ends_in_xml =
-            file.extension().is_some_and(|end| end.eq_ignore_ascii_case("urdf") || end.eq_ignore_ascii_case("xml"));
+            file.extension().is_some_and(|end| ["urdf", "xml", "xacro"].iter().any(|xml| end.eq_ignore_ascii_case(xml)));
         let bytes = read_bytes(&file, if ends_in_xml || is_stdin(&file) { URDF_LIMIT } else { TEXT_LIMIT })?;
         refuse_binary(&bytes).map_err(at_file)?;
         let is_xml = ends_in_xml || is_xml(&bytes);
@@ -77,9 +85,16 @@ impl InputFile {
             text_of(bytes).map(|text| (text, Vec::new()))
         }
         .map_err(at_file)?;
-        let robot = || Robot::from_urdf(&text).map(|robot| Description::Robot(robot.with_notes(notes)));
+        let expanded = (is_xml && xacro::is_xacro(&file, &text)).then(|| xacro::expand_text(&text, &file, options));
+        let expanded = expanded.transpose().map_err(at_file)?;
+        let robot = || match &expanded {
+            Some(expanded) => expanded.robot(),
+            None => Robot::from_urdf(&text),
+        };
+        let robot = || robot().map(|robot| Description::Robot(robot.with_notes(notes)));
         let described = if is_xml { robot() } else { from_toml(&text, &file) };
         let description = described.map_err(|error| at_file(explained(error, &text)))?;
+        let text = expanded.map_or(text, |expanded| expanded.text);
         let name = match description {
             Description::Chain(_) => INPUT_NAMES[0],
             Description::System(_) => INPUT_NAMES[1],
@@ -211,7 +226,15 @@ impl Source {
     /// # Errors
     /// As [`InputFile::read`], [`InputFile::chain`], [`Ends::ideal`] and [`formulate`](crate::derive::formulate()), with file and line.
     pub fn read_between(path: &Path, ends: &Ends) -> Result<Source> {
-        Source::of(InputFile::read(path)?, ends)
+        Source::read_with(path, ends, &ReadOptions::from_environment())
+    }
+
+    /// Same as [`Source::read_between`], but with `options` as in [`InputFile::read_with`].
+    ///
+    /// # Errors
+    /// As [`Source::read_between`] and [`InputFile::read_with`].
+    pub fn read_with(path: &Path, ends: &Ends, options: &ReadOptions) -> Result<Source> {
+        Source::of(InputFile::read_with(path, options)?, ends)
     }
 
     /// The source of an input for the request `ends`. If the tip was chosen among several links by its name, the request then names it.

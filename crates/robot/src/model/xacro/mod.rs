@@ -33,7 +33,7 @@ mod yaml;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use super::ReadOptions;
+use super::{ReadOptions, Robot};
 use crate::document::{decode_xml, read_bytes, refuse_binary};
 use crate::{Error, Result};
 use expand::Expander;
@@ -58,6 +58,15 @@ pub struct Expanded {
 }
 
 impl Expanded {
+    /// The robot of the text, with these notes. Its errors and faults have the lines of the description.
+    ///
+    /// # Errors
+    /// As [`Robot::from_urdf`].
+    pub fn robot(&self) -> Result<Robot> {
+        let robot = Robot::from_urdf(&self.text).map_err(|error| self.located(error))?;
+        Ok(robot.with_fault_errors(|error| self.located(error)).with_notes(self.notes.clone()))
+    }
+
     /// `error` with the file and line of the description for a line of the expanded text.
     #[must_use]
     pub fn located(&self, error: Error) -> Error {
