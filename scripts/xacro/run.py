@@ -1,6 +1,6 @@
 """Expands each description in xacro of the packages of packages.txt by xacrodoc and by groebot, and compares them joint by joint.
 
-Both read the same files, with the same folders of packages and the same arguments (arguments.toml). The result is one row per file:
+Both read the same files, with the same folders of packages and the same arguments (settings.toml). The result is one row per file:
 
     equal      both expand it, and all links, joints and other elements are equal
     joints     links and joints are equal, and another element differs
@@ -30,7 +30,7 @@ HERE = Path(__file__).resolve().parent
 EQUAL = 1e-12
 
 
-def package_names(folder):
+def package_names(folder, renamed):
     """The folders of packages in an installed distribution, by name: those with a package.xml, and those that $(find NAME) and package://NAME name."""
     found = {}
     named = set()
@@ -42,7 +42,7 @@ def package_names(folder):
         elif file.suffix == ".xacro":
             named |= set(re.findall(r"\$\(find\s+([^)\s]+)\)", file.read_text(errors="replace")))
     for name in sorted(named - set(found)):
-        folders = sorted(path for path in folder.rglob(name) if path.is_dir())
+        folders = sorted(path for path in folder.rglob(renamed.get(name, name)) if path.is_dir())
         if folders:
             found[name] = folders[0]
     return {name: str(path) for name, path in sorted(found.items())}
@@ -59,7 +59,8 @@ def by_xacrodoc(request, answers):
         document = xacrodoc.XacroDoc.from_file(
             request["file"], subargs=dict(request["arguments"]), resolve_packages=False
         )
-        answers.put({"text": document.to_urdf_string()})
+        # The text as expanded: `to_urdf_string` makes the paths of meshes absolute.
+        answers.put({"text": document.dom.toxml()})
     except BaseException as error:  # xacro ends the process for some errors
         answers.put({"error": f"{type(error).__name__}: {error}".strip()})
 
@@ -152,17 +153,17 @@ def main():
     parser.add_argument("--only", default="", help="only files with this text in their path")
     parser.add_argument("--csv", type=Path, help="write the table to this file")
     arguments = parser.parse_args()
-    given = tomllib.loads((HERE / "arguments.toml").read_text())
+    settings = tomllib.loads((HERE / "settings.toml").read_text())
     listed = [line for line in (HERE / "packages.txt").read_text().split("\n") if line and not line.startswith("#")]
     requests, names = [], []
     for package in listed:
         folder = arguments.packages / package.replace("==", "-")
-        packages = package_names(folder)
+        packages = package_names(folder, settings["folders"])
         for file in sorted(folder.rglob("*.xacro")):
             name = f"{folder.name}/{file.relative_to(folder)}"
             if arguments.only in name and file.is_file():
                 names.append(name)
-                values = given.get(file.name, {})
+                values = settings["arguments"].get(file.name, {})
                 requests.append({"file": str(file), "packages": packages, "arguments": values})
     answers = expanded_by_groebot(arguments.expand, requests)
     rows, counts, total = [], {}, 0
