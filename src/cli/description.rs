@@ -20,7 +20,8 @@ impl DescriptionArguments {
     /// The options for the reader of the description.
     pub fn options(&self) -> ReadOptions {
         let packages = self.package.iter().cloned();
-        let options = packages.fold(ReadOptions::from_environment(), |options, (name, path)| options.package(name, path));
+        let options =
+            packages.fold(ReadOptions::from_environment(), |options, (name, path)| options.package(name, path));
         self.arg.iter().cloned().fold(options, |options, (name, value)| options.argument(name, value))
     }
 }
@@ -30,7 +31,11 @@ fn package(text: &str) -> std::result::Result<(String, PathBuf), String> {
     let parts = parts.filter(|(name, path)| !name.is_empty() && !path.is_empty());
     let (name, path) = parts.ok_or("give NAME=FOLDER, such as ur_description=/opt/ur_description")?;
     let path = PathBuf::from(path);
-    if path.is_dir() { Ok((name.to_owned(), path)) } else { Err("there is no such folder; give NAME=FOLDER".to_owned()) }
+    if path.is_dir() {
+        Ok((name.to_owned(), path))
+    } else {
+        Err("there is no such folder; give NAME=FOLDER".to_owned())
+    }
 }
 
 fn argument(text: &str) -> std::result::Result<(String, String), String> {

@@ -123,7 +123,7 @@ impl Mechanism {
         if let Some(chain) = self.known_robot()? {
             return Source::of_chain(self.ends.ask(chain)?, &ends);
         }
-        Source::of(InputFile::read(&self.input)?, &ends)
+        Source::read_with(&self.input, &ends, &self.ends.options())
     }
 
     /// A robot of [`robots`], if no file has its name.

@@ -24,7 +24,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let request: Request = serde_json::from_str(&line?)?;
         let options = ReadOptions::new();
         let options = request.packages.into_iter().fold(options, |options, (name, path)| options.package(name, path));
-        let options = request.arguments.into_iter().fold(options, |options, (name, value)| options.argument(name, value));
+        let options =
+            request.arguments.into_iter().fold(options, |options, (name, value)| options.argument(name, value));
         let answer = match xacro::expand(&request.file, &options) {
             Ok(expanded) => serde_json::json!({ "text": expanded.text, "notes": expanded.notes }),
             Err(error) => serde_json::json!({ "error": error.to_string() }),

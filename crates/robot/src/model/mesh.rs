@@ -73,7 +73,9 @@ impl Meshes {
             [is_package.then(|| folder.join(inner)), Some(folder.join(rest))]
         };
         let found = self.folders.iter().flat_map(inside).flatten().find(|file| file.is_file());
-        found.or_else(|| self.options.find_package(package).map(|folder| folder.join(inner)).filter(|file| file.is_file()))
+        found.or_else(|| {
+            self.options.find_package(package).map(|folder| folder.join(inner)).filter(|file| file.is_file())
+        })
     }
 
     /// Points whose convex hull is approximately the solid, in its frame \[m\]. For a mesh they are the corners of its
@@ -97,8 +99,10 @@ impl Meshes {
             return Ok(Surface { points: Vec::new(), triangles: Vec::new() });
         };
         let missing = || {
-            let text =
-                format!("the mesh `{}` is not found; its folder must be above the description's file, or given by `--package NAME=FOLDER`", shown(path));
+            let text = format!(
+                "the mesh `{}` is not found; its folder must be above the description's file, or given by `--package NAME=FOLDER`",
+                shown(path)
+            );
             Error::new(ErrorKind::Io, text)
         };
         let file = self.find(path).ok_or_else(missing)?;

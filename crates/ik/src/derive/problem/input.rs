@@ -74,8 +74,9 @@ impl InputFile {
     pub fn read_with(path: &Path, options: &ReadOptions) -> Result<InputFile> {
         let file = if path.is_dir() { input_in(path)? } else { path.to_owned() };
         let at_file = |error: Error| error.in_file(&file);
-        let ends_in_xml =
-            file.extension().is_some_and(|end| ["urdf", "xml", "xacro"].iter().any(|xml| end.eq_ignore_ascii_case(xml)));
+        let ends_in_xml = file
+            .extension()
+            .is_some_and(|end| ["urdf", "xml", "xacro"].iter().any(|xml| end.eq_ignore_ascii_case(xml)));
         let bytes = read_bytes(&file, if ends_in_xml || is_stdin(&file) { URDF_LIMIT } else { TEXT_LIMIT })?;
         refuse_binary(&bytes).map_err(at_file)?;
         let is_xml = ends_in_xml || is_xml(&bytes);

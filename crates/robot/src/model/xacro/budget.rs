@@ -30,7 +30,8 @@ impl Budget {
     /// [`ErrorKind::BadValue`] if none remain.
     pub fn spend(&mut self, size: usize) -> Result<()> {
         let left = self.steps.checked_sub(1 + size / 16);
-        self.steps = left.ok_or_else(|| over(format!("the expansion takes more than {} steps", limits::XACRO_STEPS)))?;
+        self.steps =
+            left.ok_or_else(|| over(format!("the expansion takes more than {} steps", limits::XACRO_STEPS)))?;
         Ok(())
     }
 

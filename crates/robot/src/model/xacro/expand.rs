@@ -291,7 +291,8 @@ impl<'o> Expander<'o> {
         if out.takes_attributes {
             out.attributes.push((name.to_string(), value.to_string()));
         } else {
-            let text = "xacro:attribute has no effect in a condition, macro or include, as in ROS; use it in an element";
+            let text =
+                "xacro:attribute has no effect in a condition, macro or include, as in ROS; use it in an element";
             self.note(element.location, text);
         }
         Ok(())

@@ -13,9 +13,9 @@ use crate::{Error, ErrorKind, Result};
 const CALL: usize = 16 * 10;
 /// The words of Python that are not names of properties.
 const KEYWORDS: [&str; 35] = [
-    "False", "None", "True", "and", "as", "assert", "async", "await", "break", "class", "continue", "def", "del", "elif",
-    "else", "except", "finally", "for", "from", "global", "if", "import", "in", "is", "lambda", "nonlocal", "not", "or",
-    "pass", "raise", "return", "try", "while", "with", "yield",
+    "False", "None", "True", "and", "as", "assert", "async", "await", "break", "class", "continue", "def", "del",
+    "elif", "else", "except", "finally", "for", "from", "global", "if", "import", "in", "is", "lambda", "nonlocal",
+    "not", "or", "pass", "raise", "return", "try", "while", "with", "yield",
 ];
 
 impl Expander<'_> {
@@ -99,7 +99,8 @@ impl Expander<'_> {
     /// `xacro:insert_block`: inserts a block, evaluated in this scope.
     pub fn insert_block(&mut self, element: &Element, scope: Scope, out: &mut Output) -> Result<()> {
         let name = self.string(self.required(element, "name")?, scope.symbols)?;
-        let found = |expander: &Self, stars: &str| match expander.symbols.find(scope.symbols, &format!("{stars}{name}")) {
+        let found = |expander: &Self, stars: &str| match expander.symbols.find(scope.symbols, &format!("{stars}{name}"))
+        {
             Some(Symbol::Block(block)) => Some(block.clone()),
             _ => None,
         };

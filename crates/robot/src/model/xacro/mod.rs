@@ -35,7 +35,7 @@ use std::rc::Rc;
 
 use super::{ReadOptions, Robot};
 use crate::document::{decode_xml, read_bytes, refuse_binary};
-use crate::{Error, Result};
+use crate::{Error, ErrorKind, Result};
 use expand::Expander;
 use groebot_algebra::limits;
 use node::{Element, Location};
@@ -85,7 +85,8 @@ pub fn is_xacro(path: &Path, text: &str) -> bool {
     let is_used = elements.peek().is_some() && (text.contains("${") || text.contains("$("));
     let is_definition = |rest: &str| {
         DEFINITIONS.iter().any(|name| {
-            rest.strip_prefix(name).is_some_and(|rest| rest.starts_with(|c: char| c.is_whitespace() || "/>".contains(c)))
+            rest.strip_prefix(name)
+                .is_some_and(|rest| rest.starts_with(|c: char| c.is_whitespace() || "/>".contains(c)))
         })
     };
     is_named || is_used || !elements.all(is_definition)
@@ -122,6 +123,10 @@ pub fn expand_text(text: &str, path: &Path, options: &ReadOptions) -> Result<Exp
     let (mut text, mut locations) = ("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n".to_owned(), Vec::new());
     locations.push(root.location);
     root.write(0, &mut text, &mut locations);
+    if text.len() as u64 > limits::XML_BYTES {
+        let message = format!("the expansion has {} bytes; at most {} are read", text.len(), limits::XML_BYTES);
+        return Err(Error::new(ErrorKind::BadValue, message).in_file(path));
+    }
     let locations = locations.into_iter().map(|Location { file, line }| (file, line)).collect();
     Ok(Expanded { text, notes: expander.notes, files: expander.files, locations })
 }

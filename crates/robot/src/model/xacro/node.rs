@@ -73,8 +73,10 @@ impl Element {
         for (name, value) in &self.attributes {
             *out += &format!(" {name}=\"{}\"", escape(value).replace('\n', "&#10;"));
         }
-        let texts = || self.children.iter().filter_map(|node| if let Node::Text(text) = node { Some(text) } else { None });
-        let text: String = texts().map(|text| text.trim()).filter(|text| !text.is_empty()).collect::<Vec<_>>().join(" ");
+        let texts =
+            || self.children.iter().filter_map(|node| if let Node::Text(text) = node { Some(text) } else { None });
+        let text: String =
+            texts().map(|text| text.trim()).filter(|text| !text.is_empty()).collect::<Vec<_>>().join(" ");
         if text.is_empty() && self.elements().next().is_none() {
             *out += "/>\n";
             locations.push(self.location);
@@ -164,7 +166,8 @@ impl Builder {
                 return Err(syntax(&format!("an element has more than {} attributes", limits::XML_ATTRIBUTES)));
             }
             let attribute = attribute.map_err(|error| syntax(&error.to_string()))?;
-            let value = attribute.decode_and_unescape_value(self.decoder).map_err(|error| syntax(&error.to_string()))?;
+            let value =
+                attribute.decode_and_unescape_value(self.decoder).map_err(|error| syntax(&error.to_string()))?;
             // A parser of XML reads blanks in attributes as spaces.
             let value = value.replace("\r\n", " ").replace(['\n', '\r', '\t'], " ");
             attributes.push((String::from_utf8_lossy(attribute.key.as_ref()).into_owned(), value));

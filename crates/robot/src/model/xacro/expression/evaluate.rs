@@ -187,17 +187,16 @@ impl Evaluator<'_> {
         let owner = self.value(owner)?;
         let mut values = [None, None, None];
         for (value, bound) in values.iter_mut().zip(bounds) {
-            *value = bound.as_ref().map(|bound| self.value(bound)).transpose()?.filter(|value| !matches!(value, Value::None));
+            *value = bound
+                .as_ref()
+                .map(|bound| self.value(bound))
+                .transpose()?
+                .filter(|value| !matches!(value, Value::None));
         }
         methods::slice(&owner, &values, self.context.budget())
     }
 
-    fn call(
-        &mut self,
-        function: &Expression,
-        values: &[Expression],
-        named: &[(String, Expression)],
-    ) -> Result<Value> {
+    fn call(&mut self, function: &Expression, values: &[Expression], named: &[(String, Expression)]) -> Result<Value> {
         if let Expression::Attribute(owner, name) = function {
             let owner = self.value(owner)?;
             if methods::is_method(&owner, name) {

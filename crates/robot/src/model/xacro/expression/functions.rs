@@ -46,8 +46,29 @@ const OF_ONE: [(&str, fn(f64) -> f64); 27] = [
 const OF_MORE: [&str; 8] = ["atan2", "hypot", "pow", "fmod", "copysign", "isnan", "isinf", "isfinite"];
 /// The functions of Python, which are in the module `python` too.
 const PYTHON: [&str; 23] = [
-    "abs", "all", "any", "bool", "dict", "divmod", "enumerate", "float", "int", "isinstance", "len", "list", "max",
-    "min", "range", "repr", "reversed", "round", "sorted", "str", "sum", "tuple", "zip",
+    "abs",
+    "all",
+    "any",
+    "bool",
+    "dict",
+    "divmod",
+    "enumerate",
+    "float",
+    "int",
+    "isinstance",
+    "len",
+    "list",
+    "max",
+    "min",
+    "range",
+    "repr",
+    "reversed",
+    "round",
+    "sorted",
+    "str",
+    "sum",
+    "tuple",
+    "zip",
 ];
 /// The functions of xacro that read files, arguments or packages, or write notes.
 const XACRO: [&str; 9] =
@@ -55,8 +76,7 @@ const XACRO: [&str; 9] =
 /// The functions of `$(eval ...)`.
 const EVAL: [&str; 4] = ["env", "optenv", "find", "dirname"];
 /// The functions of Python that are only in its module: xacro does not expose them as plain names.
-const ONLY_IN_MODULE: [&str; 9] =
-    ["abs", "all", "any", "divmod", "enumerate", "isinstance", "repr", "reversed", "sum"];
+const ONLY_IN_MODULE: [&str; 9] = ["abs", "all", "any", "divmod", "enumerate", "isinstance", "repr", "reversed", "sum"];
 /// The functions that tests of types accept.
 const TYPES: [(&str, &str); 7] = [
     ("str", "str"),
@@ -279,9 +299,9 @@ fn of_lists(name: &str, arguments: &[Value], budget: &mut Budget) -> Result<Valu
         ("reversed", [list]) => Ok(Value::list(items(list, budget)?.into_iter().rev().collect())),
         ("all", [list]) => Ok(Value::Bool(items(list, budget)?.iter().all(Value::is_true))),
         ("any", [list]) => Ok(Value::Bool(items(list, budget)?.iter().any(Value::is_true))),
-        ("sum", [list]) => items(list, budget)?
-            .iter()
-            .try_fold(Value::Int(0), |sum, value| binary(Operator::Add, &sum, value, budget)),
+        ("sum", [list]) => {
+            items(list, budget)?.iter().try_fold(Value::Int(0), |sum, value| binary(Operator::Add, &sum, value, budget))
+        }
         ("enumerate", [list]) => {
             let numbered = items(list, budget)?.into_iter().enumerate();
             Ok(Value::list(numbered.map(|(at, value)| pair(vec![Value::Int(at as i128), value])).collect()))

@@ -79,7 +79,8 @@ fn number(text: &str, tokens: &mut Vec<Token>) -> Result<usize> {
     }
     let word = &text[..end];
     let is_int = word.bytes().all(|byte| byte.is_ascii_digit() || byte == b'_');
-    let is_octal = is_int && word.len() > 1 && word.starts_with('0') && word.bytes().any(|byte| (b'1'..=b'9').contains(&byte));
+    let is_octal =
+        is_int && word.len() > 1 && word.starts_with('0') && word.bytes().any(|byte| (b'1'..=b'9').contains(&byte));
     let value = if is_int { parse_int(word).map(Token::Int) } else { parse_float(word).map(Token::Float) };
     tokens.push(value.filter(|_| !is_octal).ok_or_else(|| bad(word))?);
     Ok(end)

@@ -7,8 +7,23 @@ use crate::{Error, ErrorKind, Result};
 
 /// The methods of texts.
 const TEXT: [&str; 17] = [
-    "lower", "upper", "strip", "lstrip", "rstrip", "split", "replace", "startswith", "endswith", "join", "find", "count",
-    "capitalize", "title", "isdigit", "index", "zfill",
+    "lower",
+    "upper",
+    "strip",
+    "lstrip",
+    "rstrip",
+    "split",
+    "replace",
+    "startswith",
+    "endswith",
+    "join",
+    "find",
+    "count",
+    "capitalize",
+    "title",
+    "isdigit",
+    "index",
+    "zfill",
 ];
 /// The methods of dicts.
 const DICT: [&str; 4] = ["get", "keys", "values", "items"];
@@ -40,17 +55,17 @@ pub fn call(owner: &Value, name: &str, arguments: &[Value], budget: &mut Budget)
 
 fn text_method(text: &str, name: &str, arguments: &[Value], budget: &mut Budget) -> Result<Value> {
     budget.spend_length(text.len())?;
-    let given: Option<Vec<&str>> = arguments
-        .iter()
-        .map(|value| if let Value::Text(text) = value { Some(&**text) } else { None })
-        .collect();
+    let given: Option<Vec<&str>> =
+        arguments.iter().map(|value| if let Value::Text(text) = value { Some(&**text) } else { None }).collect();
     let cut = |part: &str| -> String { part.to_owned() };
     let set = |set: &str| -> Vec<char> { set.chars().collect() };
     let value = match (name, given.as_deref()) {
         ("lower", Some([])) => Value::text(text.to_lowercase()),
         ("upper", Some([])) => Value::text(text.to_uppercase()),
         ("capitalize", Some([])) => Value::text(capitalized(text)),
-        ("title", Some([])) => Value::text(text.split_inclusive(|c: char| !c.is_alphabetic()).map(capitalized).collect::<String>()),
+        ("title", Some([])) => {
+            Value::text(text.split_inclusive(|c: char| !c.is_alphabetic()).map(capitalized).collect::<String>())
+        }
         ("isdigit", Some([])) => Value::Bool(!text.is_empty() && text.chars().all(|c| c.is_ascii_digit())),
         ("strip", Some([])) => Value::text(cut(text.trim())),
         ("lstrip", Some([])) => Value::text(cut(text.trim_start())),
@@ -81,7 +96,9 @@ fn text_method(text: &str, name: &str, arguments: &[Value], budget: &mut Budget)
 
 fn capitalized(text: &str) -> String {
     let mut letters = text.chars();
-    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters.flat_map(char::to_lowercase)).collect())
+    letters
+        .next()
+        .map_or(String::new(), |first| first.to_uppercase().chain(letters.flat_map(char::to_lowercase)).collect())
 }
 
 fn texts<'t>(parts: impl Iterator<Item = &'t str>) -> Value {
@@ -114,9 +131,9 @@ fn dict_method(entries: &[(Value, Value)], name: &str, arguments: &[Value], budg
     Ok(match (name, arguments) {
         ("keys", []) => Value::list(entries.iter().map(|(key, _)| key.clone()).collect()),
         ("values", []) => Value::list(entries.iter().map(|(_, value)| value.clone()).collect()),
-        ("items", []) => {
-            Value::list(entries.iter().map(|(key, value)| Value::Tuple(vec![key.clone(), value.clone()].into())).collect())
-        }
+        ("items", []) => Value::list(
+            entries.iter().map(|(key, value)| Value::Tuple(vec![key.clone(), value.clone()].into())).collect(),
+        ),
         ("get", [key]) => Value::entry(entries, key, budget)?.unwrap_or(Value::None),
         ("get", [key, other]) => Value::entry(entries, key, budget)?.unwrap_or_else(|| other.clone()),
         _ => return Err(bad(format!("`{name}` of a dict does not take these arguments"))),

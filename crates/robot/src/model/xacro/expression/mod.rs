@@ -13,7 +13,7 @@ mod syntax;
 mod value;
 
 pub use evaluate::{Context, evaluate};
+pub use functions::eval_function;
 pub use lexer::syntax as syntax_error;
 pub use methods::insert;
-pub use functions::eval_function;
 pub use value::{Value, parse_float, parse_int};

@@ -78,7 +78,11 @@ fn joined(operator: Operator, a: &Value, b: &Value, budget: &mut Budget) -> Resu
             let Some(times) = times.integer() else { return Ok(None) };
             let times = usize::try_from(times.max(0)).unwrap_or(usize::MAX);
             budget.spend_length(list.len().saturating_mul(times))?;
-            Value::list(if list.is_empty() { Vec::new() } else { std::iter::repeat_n(&**list, times).flatten().cloned().collect() })
+            Value::list(if list.is_empty() {
+                Vec::new()
+            } else {
+                std::iter::repeat_n(&**list, times).flatten().cloned().collect()
+            })
         }
         (Operator::Remainder, Value::Text(format), value) => Value::text(formatted(format, value, budget)?),
         _ => return Ok(None),
@@ -95,9 +99,7 @@ fn integers(operator: Operator, a: i128, b: i128) -> Result<Value> {
         Operator::Divide | Operator::FloorDivide | Operator::Remainder if b == 0 => return Err(divisor("a division")),
         Operator::Divide => return Ok(Value::Float(a as f64 / b as f64)),
         Operator::FloorDivide => a.checked_div_euclid(b).map(|q| if b < 0 && a.rem_euclid(b) != 0 { q - 1 } else { q }),
-        Operator::Remainder => {
-            a.checked_rem_euclid(b).map(|rest| if b < 0 && rest != 0 { rest + b } else { rest })
-        }
+        Operator::Remainder => a.checked_rem_euclid(b).map(|rest| if b < 0 && rest != 0 { rest + b } else { rest }),
         Operator::Power if b < 0 => return floats(operator, a as f64, b as f64),
         Operator::Power => u32::try_from(b).ok().and_then(|b| a.checked_pow(b)),
         Operator::BitAnd => Some(a & b),

@@ -237,7 +237,14 @@ fn quote(text: &str, out: &mut String) {
 /// The shortest decimal text of a double, with an exponent below 1e-4 and from 1e16, as Python prints it.
 pub fn float_text(value: f64) -> String {
     if !value.is_finite() {
-        return if value.is_nan() { "nan" } else if value > 0.0 { "inf" } else { "-inf" }.to_owned();
+        return if value.is_nan() {
+            "nan"
+        } else if value > 0.0 {
+            "inf"
+        } else {
+            "-inf"
+        }
+        .to_owned();
     }
     let text = format!("{value:e}");
     let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
