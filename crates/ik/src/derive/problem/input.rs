@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use crate::derive::System;
 use crate::derive::coupled::CoupledChains;
 use crate::derive::planner::{Choice, is_redundant, joints_to_give};
-use crate::derive::problem::ends::{Ends, TASK_NAME};
-use crate::derive::problem::formulate::formulate;
+use crate::derive::problem::ends::{Ends, TASK_NAME, proposed};
+use crate::derive::problem::formulate::formulated;
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::document::{
     Document, TEXT_LIMIT, decode_xml, explained, is_stdin, is_xml, read_bytes, refuse_binary, text_of,
@@ -369,37 +369,6 @@ impl Source {
     /// The chain, if it is solved joint by joint. A chain with an order of unknowns or a choice of root is solved as one system instead.
     pub(crate) fn chain_by_steps(&self) -> Option<&Chain> {
         self.chain.as_ref().filter(|chain| chain.order().is_none() && chain.choice().is_none())
-    }
-}
-
-/// The error for a chain with several redundant joints. It names the joints that may be given.
-fn proposed(chain: &Chain, choice: &Choice) -> Error {
-    let last = choice.candidates.iter().find(|candidate| choice.given.contains(&candidate.joint));
-    let share = last.map(|last| format!(", with solutions on {:.0} % of the last one's range", 100.0 * last.share));
-    let options: Vec<String> = choice.given.iter().map(|joint| format!("--given {joint}")).collect();
-    let text = format!(
-        "{} joints must be given: the `{}` task determines {} of the {}; `--given {}` takes {}{}",
-        choice.given.len(),
-        chain.task().name(),
-        chain.task().freedoms(),
-        chain.independent().len() + chain.given_inputs().len(),
-        Ends::AUTO,
-        options.join(" "),
-        share.unwrap_or_default()
-    );
-    Error::new(ErrorKind::PositiveDimensional, text)
-}
-
-/// The equations of `chain`, if its task can be solved as one system.
-fn formulated(chain: &Chain) -> Result<Option<System>> {
-    let by_steps = chain.order().is_none() && chain.choice().is_none();
-    let follows = chain.joints().iter().any(|joint| joint.mimic.is_some());
-    match formulate(chain) {
-        Ok(system) => Ok(Some(system)),
-        Err(error) if error.kind() == ErrorKind::Unsupported && (by_steps || !follows) => Ok(None),
-        // Equations need valid names; a chain that is solved joint by joint does not.
-        Err(_) if by_steps => Ok(None),
-        Err(error) => Err(error),
     }
 }
 

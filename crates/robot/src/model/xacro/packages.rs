@@ -81,7 +81,7 @@ impl<'o> Packages<'o> {
         packages.allow(folder);
         for (name, path) in options.given_packages() {
             packages.allow(path);
-            packages.known.entry(name.to_owned()).or_insert_with(|| path.to_owned());
+            packages.known.entry(name.to_owned()).or_insert_with(|| absolute(path));
         }
         if let Some(own) = packages.roots.first().cloned().as_deref().and_then(own_package) {
             packages.allow(&own);
@@ -109,7 +109,7 @@ impl<'o> Packages<'o> {
             Error::new(ErrorKind::UnknownName, text)
         };
         let path = Some(name).filter(|name| is_package_name(name)).and_then(|name| self.options.find_package(name));
-        let path = path.ok_or_else(missing)?;
+        let path = absolute(&path.ok_or_else(missing)?);
         self.allow(&path);
         self.known.insert(name.to_owned(), path.clone());
         Ok(path)
@@ -140,6 +140,11 @@ impl<'o> Packages<'o> {
         }
         Ok(Some(real))
     }
+}
+
+/// The path from the root of the file system.
+fn absolute(path: &Path) -> PathBuf {
+    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
 }
 
 /// The nearest folder with a `package.xml` that contains `folder`.

@@ -1,7 +1,7 @@
 //! The grammar of expressions: that of Python without statements, functions and f-strings. Main function: [`parse`].
 
 use super::lexer::{Token, syntax, tokens};
-use super::syntax::{Comparison, Comprehension, Expression, Operator, Unary};
+use super::syntax::{COMPARISONS, Comparison, Comprehension, Expression, OPERATORS, Operator, Unary};
 use super::value::Value;
 use crate::Result;
 use crate::document::shown;
@@ -40,30 +40,6 @@ fn named(token: &Token) -> String {
         Token::Sign(sign) => format!("`{sign}`"),
     }
 }
-
-/// The binary operators with their levels: a higher one binds closer.
-const OPERATORS: [(&str, u8, Operator); 11] = [
-    ("|", 1, Operator::BitOr),
-    ("^", 2, Operator::BitXor),
-    ("&", 3, Operator::BitAnd),
-    ("<<", 4, Operator::ShiftLeft),
-    (">>", 4, Operator::ShiftRight),
-    ("+", 5, Operator::Add),
-    ("-", 5, Operator::Subtract),
-    ("*", 6, Operator::Multiply),
-    ("/", 6, Operator::Divide),
-    ("//", 6, Operator::FloorDivide),
-    ("%", 6, Operator::Remainder),
-];
-
-const COMPARISONS: [(&str, Comparison); 6] = [
-    ("==", Comparison::Equal),
-    ("!=", Comparison::Unequal),
-    ("<", Comparison::Less),
-    ("<=", Comparison::AtMost),
-    (">", Comparison::Greater),
-    (">=", Comparison::AtLeast),
-];
 
 struct Parser {
     tokens: Vec<Token>,

@@ -74,3 +74,28 @@ pub struct Comprehension {
     pub source: Expression,
     pub condition: Option<Expression>,
 }
+
+/// The binary operators with their levels: a higher one binds closer.
+pub const OPERATORS: [(&str, u8, Operator); 11] = [
+    ("|", 1, Operator::BitOr),
+    ("^", 2, Operator::BitXor),
+    ("&", 3, Operator::BitAnd),
+    ("<<", 4, Operator::ShiftLeft),
+    (">>", 4, Operator::ShiftRight),
+    ("+", 5, Operator::Add),
+    ("-", 5, Operator::Subtract),
+    ("*", 6, Operator::Multiply),
+    ("/", 6, Operator::Divide),
+    ("//", 6, Operator::FloorDivide),
+    ("%", 6, Operator::Remainder),
+];
+
+/// The comparisons that have a sign.
+pub const COMPARISONS: [(&str, Comparison); 6] = [
+    ("==", Comparison::Equal),
+    ("!=", Comparison::Unequal),
+    ("<", Comparison::Less),
+    ("<=", Comparison::AtMost),
+    (">", Comparison::Greater),
+    (">=", Comparison::AtLeast),
+];
