@@ -7,12 +7,14 @@ use groebot::derive::coupled::CoupledChains;
 use groebot::derive::{Ends, InputFile, Source, System};
 use groebot::document::decode_xml;
 use groebot::kinematics::Chain;
-use groebot::model::{Meshes, Robot, Solid};
+use groebot::limits::XML_BYTES;
+use groebot::model::xacro::expand;
+use groebot::model::{Meshes, ReadOptions, Robot, Solid};
 use tempfile::tempdir;
 
 use super::{Target, read, text};
 
-pub(super) const TARGETS: [Target; 10] = [
+pub(super) const TARGETS: [Target; 11] = [
     Target { name: "chain_toml", about: "chains, `kinematics::Chain::from_toml`", run: chain_toml, damaged: 200 },
     Target { name: "dh_toml", about: "Denavit-Hartenberg tables", run: dh_toml, damaged: 100 },
     Target { name: "system_toml", about: "equations of a mechanism, `derive::System`", run: system_toml, damaged: 200 },
@@ -25,6 +27,7 @@ pub(super) const TARGETS: [Target; 10] = [
         run: urdf,
         damaged: 100,
     },
+    Target { name: "xacro", about: "descriptions in xacro, `model::xacro::expand`", run: xacro, damaged: 200 },
     Target { name: "input", about: "any input file of `derive`, `derive::Source`", run: input, damaged: 100 },
     Target { name: "mesh", about: "STL, `model::Meshes::triangles`", run: mesh, damaged: 200 },
     Target { name: "mesh_path", about: "names of meshes, `model::Meshes::find`", run: mesh_path, damaged: 200 },
@@ -70,6 +73,20 @@ fn urdf(bytes: &[u8]) {
         }
     }
     write(&robot);
+}
+
+/// The texts before and after a line `---`: a description, and the file `part.xacro`, which is also `part.yaml`. An expansion is XML without xacro.
+fn xacro(bytes: &[u8]) {
+    let folder = tempdir().expect("a folder for files");
+    let input = text(bytes);
+    let (robot, part) = input.split_once("\n---\n").unwrap_or((&input, "<robot/>"));
+    for (name, text) in [("robot.xacro", robot), ("part.xacro", part), ("part.yaml", part)] {
+        fs::write(folder.path().join(name), text).expect("a file to read");
+    }
+    let options = ReadOptions::new().argument("given", "1").package("here", folder.path());
+    let Some(expanded) = read(expand(&folder.path().join("robot.xacro"), &options)) else { return };
+    assert!(expanded.text.len() as u64 <= XML_BYTES);
+    let _ = read(expanded.robot());
 }
 
 /// A robot without faults is written as URDF and MJCF. The URDF is read without faults and written unchanged.

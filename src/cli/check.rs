@@ -32,7 +32,7 @@ pub struct Arguments {
 /// Runs all checks.
 pub fn run(arguments: &Arguments) -> Outcome {
     let folder = arguments.derivation.as_path();
-    let source = Source::read_between(folder, &arguments.ends.ends()?)?;
+    let source = Source::read_with(folder, &arguments.ends.ends()?, &arguments.ends.options())?;
     let stored = Stored::read(folder)?;
     let Checked { mut findings, derivation, .. } = folder::check(&source, &stored, &Watch::none())?;
     if let Some((derivation, checked)) = &derivation

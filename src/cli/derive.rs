@@ -97,7 +97,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         Session::start(Limits { time: arguments.time, terms: arguments.terms, memory: None, quiet: arguments.quiet })?;
     let mut clock = Clock::start();
     let ends = Ends { name: arguments.name.clone(), ..arguments.ends.ends()? };
-    let mut source = Source::read_between(&arguments.input, &ends)?;
+    let mut source = Source::read_with(&arguments.input, &ends, &arguments.ends.options())?;
     let folder = destination(&source, &arguments.input, arguments.out.as_deref())?;
     clock.lap("read");
     let chosen = source.choose_given(&session.watch)?;

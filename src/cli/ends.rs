@@ -1,14 +1,16 @@
 //! `--base`, `--tip`, `--task`, `--plane`, `--axis`, `--direction`, `--given`, `--snap` and `--exact`: the chain of a
-//! URDF, and its task.
+//! URDF, and its task; `--package` and `--arg`.
 
 use serde::Serialize;
 
+use super::description::DescriptionArguments;
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::{BigRational, parse_rational};
 use groebot_ik::derive::report::explain::{Line, Part};
 use groebot_ik::derive::{Ends, Source};
 use groebot_robot::document::shown;
 use groebot_robot::kinematics::{BaseAxis, ExactVector, LinkPath, Plane, Task, TipChoice};
+use groebot_robot::model::ReadOptions;
 
 /// The tasks without a plane or an axis.
 const TASKS: [Task; 6] =
@@ -49,6 +51,8 @@ pub struct EndArguments {
     /// joint given, which find all arcs of solutions; with two to four, it also scans the ranges of up to three joints)
     #[arg(long, value_name = "JOINT", alias = "free")]
     given: Vec<String>,
+    #[command(flatten)]
+    described: DescriptionArguments,
 }
 
 /// The options of [`EndArguments`], and the idealisation.
@@ -66,6 +70,11 @@ pub struct IdealEndArguments {
 }
 
 impl IdealEndArguments {
+    /// The options for the reader of the description.
+    pub fn options(&self) -> ReadOptions {
+        self.plain.options()
+    }
+
     /// Converts the options to plain data.
     ///
     /// # Errors
@@ -131,6 +140,11 @@ enum RequestedTask {
 struct Direction(ExactVector);
 
 impl EndArguments {
+    /// The options for the reader of the description.
+    pub fn options(&self) -> ReadOptions {
+        self.described.options()
+    }
+
     /// Converts the options to plain data.
     ///
     /// # Errors

@@ -11,6 +11,7 @@ use crate::Watch;
 use groebot_ik::derive::report::explain::{Document, explain};
 use groebot_ik::derive::{Derivation, Ends, Source};
 use groebot_ik::folder;
+use groebot_robot::model::ReadOptions;
 
 const EXAMPLES: &str = "Examples:
   groebot explain derivations/puma
@@ -45,7 +46,8 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Outcome {
     let output = arguments.force.output([arguments.input.as_path()]).expects([arguments.output.as_ref()])?;
     let derivation = arguments.cache.derivation(&arguments.input)?;
-    let (source, mut document) = proved_document(derivation.path(), &arguments.ends.ends()?)?;
+    let (source, mut document) =
+        proved_document(derivation.path(), &arguments.ends.ends()?, &arguments.ends.options())?;
     console::print_notes(&source.notes);
     // A stored proof has its own tip link.
     let tip = TipLink::of_source(&source).filter(|_| !is_derived(derivation.path()));
@@ -62,11 +64,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
 /// # Errors
 /// As [`Source::read`], [`folder::reprove`] and [`explain`].
 pub(super) fn document(input: &Path) -> crate::Result<Document> {
-    proved_document(input, &Ends::default()).map(|(_, document)| document)
+    proved_document(input, &Ends::default(), &ReadOptions::from_environment()).map(|(_, document)| document)
 }
 
-fn proved_document(input: &Path, ends: &Ends) -> crate::Result<(Source, Document)> {
-    let mut source = Source::read_between(input, ends)?;
+fn proved_document(input: &Path, ends: &Ends, options: &ReadOptions) -> crate::Result<(Source, Document)> {
+    let mut source = Source::read_with(input, ends, options)?;
     source.choose_given(&Watch::none())?;
     let document = explain(&prove(input, &source)?)?;
     Ok((source, document))

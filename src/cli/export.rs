@@ -117,7 +117,7 @@ impl Arguments {
         if self.robot.is_some() || self.meshes {
             return Err(refused("--robot and --meshes are for motions and scenes; leave them out for urdf and mjcf"));
         }
-        let (robot, meshes) = moving::described(&self.input)?;
+        let (robot, meshes) = moving::described(&self.input, &self.soles.options())?;
         robot.check().map_err(|error| error.in_file(&self.input))?;
         let robot = if self.soles.is_given() { walker::with_soles(robot, &meshes, &self.soles)?.robot } else { robot };
         report_omissions(&robot);
@@ -148,9 +148,12 @@ impl Arguments {
         if moving::ends(file, "wrl") {
             return Scene::from_vrml(&read_text(file, TEXT_LIMIT)?).map_err(|error| error.in_file(file));
         }
+        let options = &self.soles.options();
         let (robot, meshes) = match &motion {
-            Some(motion) => moving::robot_of(motion, self.robot.as_deref()).map_err(|error| error.in_file(file))?,
-            None => moving::robot(file)?,
+            Some(motion) => {
+                moving::robot_of(motion, self.robot.as_deref(), options).map_err(|error| error.in_file(file))?
+            }
+            None => moving::robot(file, options)?,
         };
         report_omissions(&robot);
         let scene = Scene::of_robot(&robot, self.meshes.then_some(&meshes), motion.as_ref());

@@ -150,7 +150,7 @@ pub fn destination(source: &Source, input: &Path, out: Option<&Path>) -> Result<
     let folder = match out {
         Some(out) => out.to_owned(),
         None if input.is_dir() || named => file.parent().unwrap_or(Path::new("")).to_owned(),
-        None if file.extension().is_some() => file.with_extension(""),
+        None if file.extension().is_some() => without_end(file),
         None if robot_name(input).is_some() => input.to_owned(),
         None if is_stdin(file) => {
             let text = "standard input has no folder for the files; give one by --out";
@@ -163,6 +163,16 @@ pub fn destination(source: &Source, input: &Path, out: Option<&Path>) -> Result<
     };
     refuse_other_input(source, &folder)?;
     Ok(folder)
+}
+
+/// The path without the end of its name: `.toml`, `.urdf` or `.urdf.xacro`.
+fn without_end(file: &Path) -> PathBuf {
+    let short = file.with_extension("");
+    let is_xacro = file.extension().is_some_and(|end| end.eq_ignore_ascii_case("xacro"));
+    if is_xacro && short.extension().is_some_and(|end| end.eq_ignore_ascii_case("urdf")) {
+        return short.with_extension("");
+    }
+    short
 }
 
 /// Fails if `folder` has an input other than `source`.

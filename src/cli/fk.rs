@@ -53,7 +53,7 @@ pub struct Arguments {
 
 /// Prints the pose for each given joint vector.
 pub fn run(arguments: &Arguments) -> Outcome {
-    let input = InputFile::read(&arguments.input)?;
+    let input = InputFile::read_with(&arguments.input, &arguments.ends.options())?;
     let ends = arguments.ends.ends()?;
     let chain = input.chain(&ends)?.ok_or_else(|| {
         let text = "this is a system of equations, or coupled chains; forward kinematics needs a chain (of coupled chains, give the file of one)";

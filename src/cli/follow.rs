@@ -80,7 +80,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Outcome {
     let output = arguments.force.output([arguments.input.as_path(), arguments.poses.as_path()]);
     let output = output.expects([arguments.out.as_ref(), arguments.json.as_ref()])?;
-    let input = InputFile::read(&arguments.input)?;
+    let input = InputFile::read_with(&arguments.input, &arguments.ends.options())?;
     let ends = arguments.ends.ends()?.or(&input.ends);
     let none = || Error::new(ErrorKind::BadValue, "there is no chain here").in_file(&input.path);
     let chain = input.chain(&ends)?.ok_or_else(none)?;

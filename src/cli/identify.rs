@@ -106,7 +106,7 @@ struct Found<'a> {
 pub fn run(arguments: &Arguments) -> Outcome {
     let output = arguments.force.output([arguments.robot.as_path(), arguments.log.as_path()]);
     let output = output.expects([arguments.out.as_ref()])?;
-    let (robot, _) = described(&arguments.robot)?;
+    let (robot, _) = described(&arguments.robot, &arguments.part.options())?;
     let (robot, gravity) = arguments.part.of(&robot)?;
     let equations = Equations::unchecked(&robot, Base::Fixed)
         .map_err(|error| error.in_file(&arguments.robot))?

@@ -42,7 +42,7 @@ pub struct Arguments {
 
 /// Prints the input.
 pub fn run(arguments: &Arguments) -> Outcome {
-    let input = InputFile::read(&arguments.input)?;
+    let input = InputFile::read_with(&arguments.input, &arguments.ends.options())?;
     let ends = arguments.ends.ends()?.or(&input.ends);
     let paint = Paint::of(&std::io::stdout());
     match &input.description {

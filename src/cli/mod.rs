@@ -21,6 +21,7 @@ mod codegen;
 mod columns;
 mod console;
 mod derive;
+mod description;
 mod dynamics;
 mod ends;
 mod explain;

@@ -7,7 +7,7 @@ use groebot_humanoid::sim::TaskRecord;
 use groebot_humanoid::view::WalkRecord;
 use groebot_ik::derive::{Description, InputFile};
 use groebot_robot::document::{is_stdin, read_text, shown};
-use groebot_robot::model::{Meshes, Robot};
+use groebot_robot::model::{Meshes, ReadOptions, Robot};
 use groebot_robot::motion::Trajectory;
 use groebot_robot::motion::table::TABLE_LIMIT;
 use groebot_robot::robots;
@@ -41,10 +41,14 @@ pub fn motion(file: &Path) -> Result<Option<Motion>> {
 }
 
 /// The robot with this name or file, or else the one that the trajectory names.
-pub fn robot_of(trajectory: &Trajectory, described_by: Option<&Path>) -> Result<(Robot, Meshes)> {
+pub fn robot_of(
+    trajectory: &Trajectory,
+    described_by: Option<&Path>,
+    options: &ReadOptions,
+) -> Result<(Robot, Meshes)> {
     let own = || robots::robot(&trajectory.robot).map(|robot| (robot, Meshes::default()));
     match described_by {
-        Some(name) => robot(name),
+        Some(name) => robot(name, options),
         None => own().ok_or_else(|| {
             let text = format!(
                 "its robot `{}` is not a robot of groebot; give its description by --robot, or nao, rh0 or teo",
@@ -56,7 +60,7 @@ pub fn robot_of(trajectory: &Trajectory, described_by: Option<&Path>) -> Result<
 }
 
 /// Same as [`described`], but the error for another name lists the robots.
-pub fn robot(name: &Path) -> Result<(Robot, Meshes)> {
+pub fn robot(name: &Path, options: &ReadOptions) -> Result<(Robot, Meshes)> {
     if !is_stdin(name) && !name.exists() && name.to_str().and_then(robots::robot).is_none() {
         let text = format!(
             "`{}` is neither a file nor a robot of groebot; give a file, nao, rh0 or teo",
@@ -64,17 +68,17 @@ pub fn robot(name: &Path) -> Result<(Robot, Meshes)> {
         );
         return Err(Error::new(ErrorKind::UnknownName, text));
     }
-    described(name)
+    described(name, options)
 }
 
 /// A robot of this crate by its name, or from a file.
-pub fn described(robot: &Path) -> Result<(Robot, Meshes)> {
+pub fn described(robot: &Path, options: &ReadOptions) -> Result<(Robot, Meshes)> {
     if let Some(known) = robot.to_str().and_then(robots::robot) {
         return Ok((known, Meshes::default()));
     }
-    let input = InputFile::read(robot)?;
+    let input = InputFile::read_with(robot, options)?;
     match input.description {
-        Description::Robot(read) => Ok((read, Meshes::beside(&input.path))),
+        Description::Robot(read) => Ok((read, Meshes::beside_with(&input.path, options.clone()))),
         _ => {
             let text = "this does not describe a robot with links; give one in URDF or TOML";
             Err(Error::new(ErrorKind::BadValue, text).in_file(robot))

@@ -44,7 +44,8 @@ impl CacheArguments {
         let robot = named_robot(name)?;
         let uncached = self.no_cache.then(TempDir::new).transpose();
         let uncached = uncached.map_err(|error| Error::io(&std::env::temp_dir(), &error))?;
-        let cache = uncached.as_ref().map_or_else(SolverCache::of_user, |folder| Ok(SolverCache::new(folder.path())))?;
+        let cache =
+            uncached.as_ref().map_or_else(SolverCache::of_user, |folder| Ok(SolverCache::new(folder.path())))?;
         let session = Session::start(Limits::default())?;
         Ok(SolverPath { path: cache.derivation(robot, &session.watch)?, _uncached: uncached })
     }
@@ -119,7 +120,8 @@ fn table(robots: &[&Listed]) -> String {
             text += &format!("{}{vendor}\n", if text.is_empty() { "" } else { "\n" });
         }
         let checked = robot.checked().map_or("unchecked", |_| "checked");
-        text += &format!("  {:width$}  {:models$}  {:5}  {checked}\n", robot.name(), robot.model(), robot.kind().word());
+        text +=
+            &format!("  {:width$}  {:models$}  {:5}  {checked}\n", robot.name(), robot.model(), robot.kind().word());
     }
     let checked = robots.iter().filter(|robot| robot.checked().is_some()).count();
     text + &format!("\n{} robots, {checked} of them checked against an independent description\n", robots.len())

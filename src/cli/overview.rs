@@ -23,7 +23,9 @@ pub fn command() -> Command {
     let text = subjects(&command);
     let heading = command.get_styles().get_header();
     let options = format!("{heading}Options:{heading:#}");
-    command.help_template(format!("{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{text}{options}\n{{options}}{{after-help}}"))
+    command.help_template(format!(
+        "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{text}{options}\n{{options}}{{after-help}}"
+    ))
 }
 
 /// The commands with their summaries, by subject.

@@ -4,9 +4,10 @@
 use nalgebra::Vector3;
 use num_traits::ToPrimitive;
 
+use super::description::DescriptionArguments;
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::parse_rational;
-use groebot_robot::model::{JointType, Robot};
+use groebot_robot::model::{JointType, ReadOptions, Robot};
 use groebot_robot::spatial::exact::ExactVector;
 
 /// The links between which joints move, and gravity.
@@ -22,9 +23,16 @@ pub struct PartArguments {
     /// Gravity in the frame of the root, or of `--base` [m/s^2]
     #[arg(long, value_name = "X,Y,Z", value_parser = gravity, allow_hyphen_values = true, default_value = "0,0,-9.81")]
     pub gravity: Gravity,
+    #[command(flatten)]
+    described: DescriptionArguments,
 }
 
 impl PartArguments {
+    /// The options for the reader of the description.
+    pub fn options(&self) -> ReadOptions {
+        self.described.options()
+    }
+
     /// The robot with only the joints between the two links, and gravity \[m/s^2\] in its root's frame. Joints that
     /// follow others by a multiplier of zero are fixed.
     ///

@@ -7,7 +7,7 @@ use super::ends::{IdealEndArguments, TipLink};
 use super::{Outcome, console, json};
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_ik::derive::planner::Choice;
-use groebot_ik::derive::{InputFile, Source};
+use groebot_ik::derive::Source;
 use groebot_robot::kinematics::Chain;
 use groebot_robot::kinematics::screw::ScrewSolver;
 
@@ -118,7 +118,7 @@ impl Mechanism {
 
     fn source(&self) -> Result<Source> {
         let ends = self.ends.ends()?;
-        Source::of(InputFile::read(&self.input)?, &ends)
+        Source::read_with(&self.input, &ends, &self.ends.options())
     }
 }
 

@@ -187,7 +187,8 @@ impl Arguments {
             return Err(Error::new(ErrorKind::UnknownName, text));
         }
         // MuJoCo reads meshes from another folder.
-        let (robot, meshes) = described(&if model.exists() { whole(&model) } else { model.clone() })?;
+        let (robot, meshes) =
+            described(&if model.exists() { whole(&model) } else { model.clone() }, &self.soles.options())?;
         if let Some(joint) = plan.joints.iter().find(|joint| robot.joint(&joint.name).is_err()) {
             let text = format!(
                 "the walk moves joint `{}`, which {} does not have; give its robot by --model",

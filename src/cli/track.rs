@@ -149,7 +149,7 @@ struct JointSummary {
 pub fn run(arguments: &Arguments) -> Outcome {
     let output = arguments.force.output([arguments.robot.as_path(), arguments.trajectory.as_path()]);
     let output = output.expects([arguments.out.as_ref(), arguments.plot.as_ref()])?;
-    let (robot, _) = described(&arguments.robot)?;
+    let (robot, _) = described(&arguments.robot, &arguments.part.options())?;
     let (robot, gravity) = arguments.part.of(&robot)?;
     let equations = |robot: &Robot| -> Result<Equations> {
         let plain = Equations::new(robot, Base::Fixed)?.with_gravity(gravity);

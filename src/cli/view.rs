@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::description::DescriptionArguments;
 use super::floor::{PlaceArguments, room_text};
 use super::moving::{self, Motion};
 use super::named::{CacheArguments, is_chain};
@@ -78,6 +79,8 @@ pub struct Arguments {
     #[arg(short, long, value_name = "FILE")]
     out: PathBuf,
     #[command(flatten)]
+    described: DescriptionArguments,
+    #[command(flatten)]
     force: Force,
 }
 
@@ -101,8 +104,8 @@ impl Arguments {
         }
         match motion {
             Some(Motion { trajectory, walk, task }) => {
-                let (robot, meshes) =
-                    moving::robot_of(&trajectory, self.robot.as_deref()).map_err(|error| error.in_file(file))?;
+                let (robot, meshes) = moving::robot_of(&trajectory, self.robot.as_deref(), &self.described.options())
+                    .map_err(|error| error.in_file(file))?;
                 let soles = soles(robot.name())?;
                 let title = file.file_name().unwrap_or_default().to_string_lossy();
                 let page = Page::of_robot(&robot, self.meshes.then_some(&meshes))?.titled(&title);
@@ -115,7 +118,7 @@ impl Arguments {
             }
             None if file.is_dir() || is_chain(file) => derivation(self.cache.derivation(file)?.path()),
             None => {
-                let (robot, meshes) = moving::robot(file)?;
+                let (robot, meshes) = moving::robot(file, &self.described.options())?;
                 let page = Page::of_robot(&robot, self.meshes.then_some(&meshes))?;
                 let page = self.solved(page, &robot).map_err(|error| error.in_file(file))?;
                 self.room.as_ref().map_or(Ok(page.clone()), |room| self.running(page, room))

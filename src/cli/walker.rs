@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use nalgebra::Point2;
 
+use super::description::DescriptionArguments;
 use super::physics::whole;
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_humanoid::gait::{Footing, GaitDefaults, LegSolver, Walker};
@@ -12,7 +13,7 @@ use groebot_humanoid::walkers::{self, Outline};
 use groebot_ik::derive::{Description, InputFile, Options};
 use groebot_robot::document::{is_stdin, shown};
 use groebot_robot::kinematics::Chain;
-use groebot_robot::model::{Meshes, Robot};
+use groebot_robot::model::{Meshes, ReadOptions, Robot};
 use groebot_robot::robots;
 
 /// The law of motion of the centre of mass.
@@ -74,6 +75,8 @@ pub struct SoleArguments {
     /// its shapes]
     #[arg(long, value_name = "X0,X1,Y0,Y1[,Z]", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
     outline: Option<Vec<f64>>,
+    #[command(flatten)]
+    described: DescriptionArguments,
 }
 
 /// A walking robot, as given to a command.
@@ -119,7 +122,7 @@ fn described(file: &Path, soles: &SoleArguments, watch: &Watch) -> Result<Named>
             format!("`{}` is neither a file nor a walking robot; give a file, `nao`, `rh0` or `teo`", shown(&name));
         return Err(Error::new(ErrorKind::UnknownName, text));
     }
-    let input = InputFile::read(file)?;
+    let input = InputFile::read_with(file, &soles.options())?;
     let file = &input.path;
     let Description::Robot(robot) = input.description else {
         let text = "this does not describe a robot with links; a walk needs one, in URDF or TOML";
@@ -127,7 +130,7 @@ fn described(file: &Path, soles: &SoleArguments, watch: &Watch) -> Result<Named>
     };
     let at_file = |error: Error| error.in_file(file);
     // MuJoCo reads meshes from another folder.
-    let meshes = Meshes::beside(&whole(file));
+    let meshes = Meshes::beside_with(&whole(file), soles.options());
     let footing = soles.footing(&robot, &meshes).map_err(at_file)?;
     let leg = |chain: &Chain| -> Result<LegSolver> {
         Ok(Arc::new(Options::new().watch(watch.clone()).derive(chain)?.solver()))
@@ -157,6 +160,11 @@ fn shod(footing: &Footing, robot: &Robot) -> Result<Shod> {
 }
 
 impl SoleArguments {
+    /// The options for the reader of the description.
+    pub fn options(&self) -> ReadOptions {
+        self.described.options()
+    }
+
     /// Whether an option is given.
     pub fn is_given(&self) -> bool {
         self.left.is_some() || self.right.is_some() || self.outline.is_some()

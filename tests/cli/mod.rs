@@ -172,8 +172,21 @@ fn usage_and_version() {
     assert_eq!(succeed(&["--version"]).trim(), concat!("groebot ", env!("CARGO_PKG_VERSION")));
     let help = succeed(&["--help"]);
     let words = [
-        "Kinematics:", "Algebra:", "Dynamics and control:", "Walking and navigation:", "Pictures and exchange:", "derive", "solve", "check", "codegen", "info",
-        "fk", "basis", "Options:", "Examples:", "Exit status",
+        "Kinematics:",
+        "Algebra:",
+        "Dynamics and control:",
+        "Walking and navigation:",
+        "Pictures and exchange:",
+        "derive",
+        "solve",
+        "check",
+        "codegen",
+        "info",
+        "fk",
+        "basis",
+        "Options:",
+        "Examples:",
+        "Exit status",
     ];
     for word in words {
         assert!(help.contains(word), "{word}");

@@ -83,7 +83,9 @@ fn limbs_of_humanoids_have_names() {
 
 #[test]
 fn an_unknown_name_is_neither_a_file_nor_a_robot() {
-    for command in [&["derive", "ur5x"][..], &["solve", "ur5x", "--target", "1"], &["info", "ur5x"], &["fk", "ur5x", "--q", "1"]] {
+    for command in
+        [&["derive", "ur5x"][..], &["solve", "ur5x", "--target", "1"], &["info", "ur5x"], &["fk", "ur5x", "--q", "1"]]
+    {
         let error = refused(command);
         assert!(error.contains("no such file") && error.contains("did you mean `ur5`?"), "{error}");
     }

@@ -4,6 +4,7 @@
 //! | --- | --- |
 //! | a description in TOML, a task file | [`DESCRIPTION_BYTES`] |
 //! | a URDF or other XML | [`XML_BYTES`], [`XML_DEPTH`] levels, [`XML_ATTRIBUTES`] attributes and [`XML_TEXT`] bytes of text an element |
+//! | an expansion of xacro | [`XACRO_FILES`] files with [`XACRO_BYTES`], [`XACRO_STEPS`] steps, [`XACRO_DEPTH`] levels, texts and lists of [`XACRO_LENGTH`]; [`XML_BYTES`] of output |
 //! | a robot | chains of [`FOLLOWERS`] mimic joints |
 //! | a mesh | [`MESH_BYTES`] |
 //! | a map | [`MAP_BYTES`] of YAML, [`YAML_DEPTH`] levels; [`IMAGE_BYTES`] of image, [`IMAGE_MEMORY`] in memory, [`MAP_CELLS`], [`CELL_METRES`] |
@@ -43,6 +44,16 @@ pub const XML_DEPTH: usize = 100;
 pub const XML_ATTRIBUTES: usize = 200;
 /// Bytes of text in an XML element.
 pub const XML_TEXT: usize = 200;
+/// Files that an expansion of xacro reads: includes and YAML.
+pub const XACRO_FILES: usize = 1000;
+/// Bytes of the files that an expansion of xacro reads.
+pub const XACRO_BYTES: u64 = 16_000_000;
+/// Steps of an expansion of xacro: elements, parts of expressions, and each 16 bytes of texts.
+pub const XACRO_STEPS: usize = 5_000_000;
+/// Nesting depth of elements, macros, properties and expressions in an expansion of xacro.
+pub const XACRO_DEPTH: usize = 500;
+/// Characters of a text and entries of a list in an expansion of xacro.
+pub const XACRO_LENGTH: usize = 1_000_000;
 /// Length of a chain of mimic joints, each of which follows the next.
 pub const FOLLOWERS: usize = 100;
 /// Bytes of a mesh.

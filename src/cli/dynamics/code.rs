@@ -51,7 +51,7 @@ pub fn functions() -> impl TypedValueParser<Value = Function> {
 /// Prints the code, or writes it to files.
 pub fn run(arguments: &Arguments, language: Language) -> Outcome {
     let output = arguments.output(None).expects([arguments.out.as_ref()])?;
-    let (described, _) = described(&arguments.robot)?;
+    let (described, _) = described(&arguments.robot, &arguments.part.options())?;
     check(&described).map_err(|error| error.in_file(&arguments.robot))?;
     let meant = described.as_meant()?;
     let (robot, gravity) = arguments.part.of(&meant)?;

@@ -43,7 +43,7 @@ struct Answer {
 /// Reads the states and writes the requested quantities.
 pub fn run(arguments: &Arguments, states: &Path) -> Outcome {
     let output = arguments.output(Some(states)).expects([arguments.out.as_ref()])?;
-    let (robot, _) = described(&arguments.robot)?;
+    let (robot, _) = described(&arguments.robot, &arguments.part.options())?;
     let (robot, gravity) = arguments.part.of(&robot)?;
     let table = StateTable::read_csv(states)?;
     let report = report(&robot, gravity, arguments, (states, table))?;

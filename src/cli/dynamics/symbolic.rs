@@ -14,6 +14,7 @@ use groebot_ik::derive::{Ends, Source};
 use groebot_ik::folder::motion::{self, Moving};
 use groebot_robot::dynamics::exact::{ExactModel, Masses, Symbolic};
 use groebot_robot::kinematics::Chain;
+use groebot_robot::model::ReadOptions;
 use groebot_robot::robots;
 
 /// The greatest number of joints for equations as polynomials.
@@ -22,7 +23,7 @@ const MOST_JOINTS: usize = groebot_algebra::limits::SYMBOLIC_JOINTS;
 /// Prints the polynomials, or writes them to a folder.
 pub fn run(arguments: &Arguments) -> Outcome {
     let ends = Ends { base: arguments.part.base.clone(), tip: arguments.part.tip.clone(), ..Ends::default() };
-    let input = Input::read(&arguments.robot, &ends)?;
+    let input = Input::read(&arguments.robot, &ends, &arguments.part.options())?;
     let numbers = arguments.numbers.then(|| input.moving.numbers()).transpose()?;
     let masses = numbers.as_deref().map_or(Masses::Symbols, Masses::Numbers);
     let chain = &input.moving.chain;
@@ -78,14 +79,14 @@ struct Input {
 }
 
 impl Input {
-    fn read(path: &Path, ends: &Ends) -> Result<Self> {
+    fn read(path: &Path, ends: &Ends, options: &ReadOptions) -> Result<Self> {
         if let Some(robot) = path.to_str().and_then(robots::robot) {
             let [base, tip] = [ends.base.as_deref(), ends.tip.as_deref()];
             let chain = robot.chain(base, tip)?.ideal().0;
             let tip = Some(TipLink::of_path(&robot.path(base, tip)?));
             return Ok(Input { moving: Moving { chain, robot: Some(robot), ends: ends.clone() }, tip, source: None });
         }
-        let input = InputFile::read(path)?;
+        let input = InputFile::read_with(path, options)?;
         let source = Source::of(input.clone(), ends)?;
         let (moving, tip) = (Moving::of(&input, &source)?, TipLink::of_source(&source));
         Ok(Input { moving, tip, source: Some(source) })

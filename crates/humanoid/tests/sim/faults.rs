@@ -222,7 +222,7 @@ fn xacro_that_something_uses_is_to_be_expanded() {
         for more in ["", property] {
             let error = Robot::from_urdf(&robot(&format!("{pan}{more}"), &cam)).unwrap_err();
             assert_eq!((error.kind(), error.place().line), (ErrorKind::Unsupported, Some(line)), "{error}");
-            assert!(error.message().contains("run `xacro robot.urdf.xacro > robot.urdf` first"), "{error}");
+            assert!(error.message().contains("give its file, which is expanded when it is read"), "{error}");
         }
     }
 }

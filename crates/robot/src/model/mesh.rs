@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use nalgebra::Point3;
 
-use super::{Solid, stl};
+use super::{ReadOptions, Solid, stl};
 use crate::document::{read_bytes, shown};
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::limits;
@@ -43,14 +43,21 @@ impl Surface {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Meshes {
     folders: Vec<PathBuf>,
+    options: ReadOptions,
 }
 
 impl Meshes {
     /// Searches in the folder of the description `file` and in all folders above it. `package://name/path` is `path` in
-    /// a folder with the name `name`, or `name/path` in any folder.
+    /// a folder with the name `name`, or `name/path` in any folder, or `path` in the package `name` of
+    /// [`ReadOptions::from_environment`].
     pub fn beside(file: &Path) -> Self {
+        Meshes::beside_with(file, ReadOptions::from_environment())
+    }
+
+    /// Same as [`Meshes::beside`], but with the packages of `options`.
+    pub fn beside_with(file: &Path, options: ReadOptions) -> Self {
         let full = std::path::absolute(file).unwrap_or(file.to_owned());
-        Meshes { folders: full.ancestors().skip(1).map(Path::to_owned).collect() }
+        Meshes { folders: full.ancestors().skip(1).map(Path::to_owned).collect(), options }
     }
 
     /// The file for the description's `path`; `None` if it does not exist.
@@ -65,7 +72,10 @@ impl Meshes {
             let is_package = folder.file_name().is_some_and(|name| name == package);
             [is_package.then(|| folder.join(inner)), Some(folder.join(rest))]
         };
-        self.folders.iter().flat_map(inside).flatten().find(|file| file.is_file())
+        let found = self.folders.iter().flat_map(inside).flatten().find(|file| file.is_file());
+        found.or_else(|| {
+            self.options.find_package(package).map(|folder| folder.join(inner)).filter(|file| file.is_file())
+        })
     }
 
     /// Points whose convex hull is approximately the solid, in its frame \[m\]. For a mesh they are the corners of its
@@ -89,8 +99,10 @@ impl Meshes {
             return Ok(Surface { points: Vec::new(), triangles: Vec::new() });
         };
         let missing = || {
-            let text =
-                format!("the mesh `{}` is not found; its folder must be above the description's file", shown(path));
+            let text = format!(
+                "the mesh `{}` is not found; its folder must be above the description's file, or given by `--package NAME=FOLDER`",
+                shown(path)
+            );
             Error::new(ErrorKind::Io, text)
         };
         let file = self.find(path).ok_or_else(missing)?;

@@ -1,29 +1,45 @@
-//! Reading of robots from files of any format: [`Robot::read`].
+//! Reading of robots from files of any format: [`Robot::read`], [`Robot::read_with`].
 
 use std::path::Path;
 
-use super::Robot;
 use super::urdf::URDF_LIMIT;
+use super::{ReadOptions, Robot, xacro};
 use crate::Result;
 use crate::document::{TEXT_LIMIT, decode_xml, explained, is_xml, read_bytes, refuse_binary, text_of};
 
+/// The ends of names of files in XML.
+const XML_ENDS: [&str; 3] = ["urdf", "xml", "xacro"];
+
 impl Robot {
-    /// The robot that the file at `path` describes: a URDF where the file's name ends in `.urdf` or `.xml`, or where its text starts with `<`; otherwise TOML.
+    /// The robot that the file at `path` describes, with [`ReadOptions::from_environment`].
     ///
     /// # Errors
-    /// As [`read_bytes`], with a limit of four megabytes for a name that ends in `.urdf` or `.xml` and of one megabyte for others; as [`decode_xml`] and
-    /// [`Robot::from_urdf`], or [`Robot::from_toml`]; [`crate::ErrorKind::Unsupported`] for archives, JSON, YAML and tables. All have the file.
+    /// Those of [`Robot::read_with`].
     pub fn read(path: impl AsRef<Path>) -> Result<Robot> {
-        let path = path.as_ref();
-        let named = path.extension().is_some_and(|end| ["urdf", "xml"].iter().any(|xml| end.eq_ignore_ascii_case(xml)));
-        let bytes = read_bytes(path, if named { URDF_LIMIT } else { TEXT_LIMIT })?;
-        Robot::from_bytes(bytes, named).map_err(|error| error.in_file(path))
+        Robot::read_with(path, &ReadOptions::from_environment())
     }
 
-    fn from_bytes(bytes: Vec<u8>, named: bool) -> Result<Robot> {
+    /// The robot that the file at `path` describes: a URDF where the file's name ends in `.urdf`, `.xml` or `.xacro`, or where its text starts with `<`;
+    /// otherwise TOML. A description in [xacro] is expanded. Errors have the file and the line of the description before the expansion.
+    ///
+    /// # Errors
+    /// As [`read_bytes`], with a limit of four megabytes for a name that ends in `.urdf`, `.xml` or `.xacro` and of one megabyte for others; as
+    /// [`decode_xml`], [`xacro::expand`] and [`Robot::from_urdf`], or [`Robot::from_toml`]; [`crate::ErrorKind::Unsupported`] for archives, JSON, YAML and
+    /// tables. All have the file.
+    pub fn read_with(path: impl AsRef<Path>, options: &ReadOptions) -> Result<Robot> {
+        let path = path.as_ref();
+        let named = path.extension().is_some_and(|end| XML_ENDS.iter().any(|xml| end.eq_ignore_ascii_case(xml)));
+        let bytes = read_bytes(path, if named { URDF_LIMIT } else { TEXT_LIMIT })?;
+        Robot::from_bytes(bytes, named, path, options).map_err(|error| error.in_file(path))
+    }
+
+    fn from_bytes(bytes: Vec<u8>, named: bool, path: &Path, options: &ReadOptions) -> Result<Robot> {
         refuse_binary(&bytes)?;
         if named || is_xml(&bytes) {
             let xml = decode_xml(&bytes)?;
+            if xacro::is_xacro(path, &xml.text) {
+                return Ok(xacro::expand_text(&xml.text, path, options)?.robot()?.with_notes(xml.notes));
+            }
             let robot = Robot::from_urdf(&xml.text).map_err(|error| explained(error, &xml.text))?;
             return Ok(robot.with_notes(xml.notes));
         }

@@ -104,6 +104,14 @@ impl Robot {
         self
     }
 
+    /// Replaces the errors of the faults.
+    pub(super) fn with_fault_errors(mut self, changed: impl Fn(Error) -> Error) -> Self {
+        for fault in &mut self.parts.faults {
+            fault.error = changed(fault.error.clone());
+        }
+        self
+    }
+
     /// Faults of single parts, in the order of the file.
     pub fn faults(&self) -> &[Fault] {
         &self.parts.faults

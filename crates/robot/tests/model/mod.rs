@@ -9,5 +9,6 @@ mod round_trip;
 mod toml;
 mod urdf;
 mod urdf_angles;
+mod xacro;
 
 use crate::kinematics::exact;

@@ -19,6 +19,7 @@ use std::path::Path;
 
 use num_traits::ToPrimitive;
 
+use crate::derive::planner::Choice;
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::limits::{RUN_TIME_FILES, check_name};
 use groebot_algebra::number::BigRational;
@@ -187,4 +188,22 @@ pub fn solver_name(name: &str) -> Result<String> {
         return Err(Error::new(ErrorKind::BadValue, text));
     }
     Ok(name.to_owned())
+}
+
+/// The error for a chain with several redundant joints. It names the joints that may be given.
+pub(crate) fn proposed(chain: &Chain, choice: &Choice) -> Error {
+    let last = choice.candidates.iter().find(|candidate| choice.given.contains(&candidate.joint));
+    let share = last.map(|last| format!(", with solutions on {:.0} % of the last one's range", 100.0 * last.share));
+    let options: Vec<String> = choice.given.iter().map(|joint| format!("--given {joint}")).collect();
+    let text = format!(
+        "{} joints must be given: the `{}` task determines {} of the {}; `--given {}` takes {}{}",
+        choice.given.len(),
+        chain.task().name(),
+        chain.task().freedoms(),
+        chain.independent().len() + chain.given_inputs().len(),
+        Ends::AUTO,
+        options.join(" "),
+        share.unwrap_or_default()
+    );
+    Error::new(ErrorKind::PositiveDimensional, text)
 }

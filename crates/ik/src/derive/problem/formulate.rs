@@ -255,3 +255,16 @@ fn square_free_part(mut n: BigInt) -> BigInt {
     }
     n
 }
+
+/// The equations of `chain`, if its task can be solved as one system.
+pub(crate) fn formulated(chain: &Chain) -> Result<Option<System>> {
+    let by_steps = chain.order().is_none() && chain.choice().is_none();
+    let follows = chain.joints().iter().any(|joint| joint.mimic.is_some());
+    match formulate(chain) {
+        Ok(system) => Ok(Some(system)),
+        Err(error) if error.kind() == ErrorKind::Unsupported && (by_steps || !follows) => Ok(None),
+        // Equations need valid names; a chain that is solved joint by joint does not.
+        Err(_) if by_steps => Ok(None),
+        Err(error) => Err(error),
+    }
+}

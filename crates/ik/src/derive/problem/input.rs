@@ -5,16 +5,16 @@ use std::path::{Path, PathBuf};
 use crate::derive::System;
 use crate::derive::coupled::CoupledChains;
 use crate::derive::planner::{Choice, is_redundant, joints_to_give};
-use crate::derive::problem::ends::{Ends, TASK_NAME};
-use crate::derive::problem::formulate::formulate;
+use crate::derive::problem::ends::{Ends, TASK_NAME, proposed};
+use crate::derive::problem::formulate::formulated;
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::document::{
     Document, TEXT_LIMIT, decode_xml, explained, is_stdin, is_xml, read_bytes, refuse_binary, text_of,
 };
 use groebot_robot::kinematics::ideal::Report;
 use groebot_robot::kinematics::{Chain, DhTable, LinkPath, TipChoice};
-use groebot_robot::model::Robot;
 use groebot_robot::model::urdf::URDF_LIMIT;
+use groebot_robot::model::{ReadOptions, Robot, xacro};
 use groebot_robot::robots::{self, Listed};
 
 /// The allowed names of the input in a mechanism's folder: a chain (or a DH table), a system, a URDF robot, coupled chains, a TOML robot.
@@ -59,7 +59,8 @@ pub fn robot_name(path: &Path) -> Option<&str> {
 /// # Errors
 /// As [`robots::find`].
 pub fn named_robot(name: &str) -> Result<&'static Listed> {
-    robots::find(name).map_err(|error| Error::new(error.kind(), format!("there is no such file, and {}", error.message())))
+    robots::find(name)
+        .map_err(|error| Error::new(error.kind(), format!("there is no such file, and {}", error.message())))
 }
 
 /// An input file and its content.
@@ -82,7 +83,7 @@ impl InputFile {
     /// the name of a robot in [`robots::LISTED`].
     ///
     /// Meshes and files of coupled chains that standard input names are searched from the current folder. The content decides the type:
-    /// * a robot: a file `.urdf` or `.xml`, text that starts with `<`, or TOML with a `[[link]]`;
+    /// * a robot: a file `.urdf`, `.xml` or `.xacro`, text that starts with `<`, or TOML with a `[[link]]`;
     /// * coupled chains: TOML with a `[[chain]]`;
     /// * a DH table: TOML with a `[dh]`;
     /// * a chain: TOML with a `[tip]` or `[task]`;
@@ -93,13 +94,22 @@ impl InputFile {
     /// [`ErrorKind::BadValue`] for a folder without exactly one input. [`ErrorKind::Unsupported`] for archives, JSON, YAML, tables and other files that are not descriptions. As [`decode_xml`], [`Robot::from_urdf`], [`CoupledChains::from_toml`],
     /// [`Chain::from_dh_toml`], [`Chain::from_toml`] and [`System::from_toml`], with file and line.
     pub fn read(path: &Path) -> Result<InputFile> {
+        InputFile::read_with(path, &ReadOptions::from_environment())
+    }
+
+    /// Same as [`InputFile::read`], but with the packages and arguments of `options` for a description in [xacro], whose expansion is [`InputFile::text`].
+    ///
+    /// # Errors
+    /// As [`InputFile::read`] and [`xacro::expand`].
+    pub fn read_with(path: &Path, options: &ReadOptions) -> Result<InputFile> {
         if let Some(name) = robot_name(path) {
             return InputFile::of_robot(named_robot(name)?);
         }
         let file = if path.is_dir() { input_in(path)? } else { path.to_owned() };
         let at_file = |error: Error| error.in_file(&file);
-        let ends_in_xml =
-            file.extension().is_some_and(|end| end.eq_ignore_ascii_case("urdf") || end.eq_ignore_ascii_case("xml"));
+        let ends_in_xml = file
+            .extension()
+            .is_some_and(|end| ["urdf", "xml", "xacro"].iter().any(|xml| end.eq_ignore_ascii_case(xml)));
         let bytes = read_bytes(&file, if ends_in_xml || is_stdin(&file) { URDF_LIMIT } else { TEXT_LIMIT })?;
         refuse_binary(&bytes).map_err(at_file)?;
         let is_xml = ends_in_xml || is_xml(&bytes);
@@ -109,9 +119,16 @@ impl InputFile {
             text_of(bytes).map(|text| (text, Vec::new()))
         }
         .map_err(at_file)?;
-        let robot = || Robot::from_urdf(&text).map(|robot| Description::Robot(robot.with_notes(notes)));
+        let expanded = (is_xml && xacro::is_xacro(&file, &text)).then(|| xacro::expand_text(&text, &file, options));
+        let expanded = expanded.transpose().map_err(at_file)?;
+        let robot = || match &expanded {
+            Some(expanded) => expanded.robot(),
+            None => Robot::from_urdf(&text),
+        };
+        let robot = || robot().map(|robot| Description::Robot(robot.with_notes(notes)));
         let described = if is_xml { robot() } else { from_toml(&text, &file) };
         let description = described.map_err(|error| at_file(explained(error, &text)))?;
+        let text = expanded.map_or(text, |expanded| expanded.text);
         let ends = read_ends(&file)?;
         Ok(InputFile { path: file, name: description.file_name(is_xml), text, description, ends })
     }
@@ -122,7 +139,8 @@ impl InputFile {
     /// As [`InputFile::read`].
     pub fn of_robot(listed: &Listed) -> Result<InputFile> {
         let path = PathBuf::from(listed.name());
-        let description = from_toml(listed.text(), &path).map_err(|error| explained(error, listed.text()).in_file(&path))?;
+        let description =
+            from_toml(listed.text(), &path).map_err(|error| explained(error, listed.text()).in_file(&path))?;
         let [base, tip] = listed.ends().map_or([None, None], |ends| ends.map(|link| Some(link.to_owned())));
         // The description of a larger robot does not have the chain's name.
         let is_larger = matches!(&description, Description::Robot(robot) if robot.name() != listed.name());
@@ -252,7 +270,15 @@ impl Source {
     /// # Errors
     /// As [`InputFile::read`], [`InputFile::chain`], [`Ends::ideal`] and [`formulate`](crate::derive::formulate()), with file and line.
     pub fn read_between(path: &Path, ends: &Ends) -> Result<Source> {
-        Source::of(InputFile::read(path)?, ends)
+        Source::read_with(path, ends, &ReadOptions::from_environment())
+    }
+
+    /// Same as [`Source::read_between`], but with `options` as in [`InputFile::read_with`].
+    ///
+    /// # Errors
+    /// As [`Source::read_between`] and [`InputFile::read_with`].
+    pub fn read_with(path: &Path, ends: &Ends, options: &ReadOptions) -> Result<Source> {
+        Source::of(InputFile::read_with(path, options)?, ends)
     }
 
     /// The source of an input for the request `ends`. If the tip was chosen among several links by its name, the request then names it.
@@ -386,37 +412,6 @@ impl Source {
     /// The chain, if it is solved joint by joint. A chain with an order of unknowns or a choice of root is solved as one system instead.
     pub(crate) fn chain_by_steps(&self) -> Option<&Chain> {
         self.chain.as_ref().filter(|chain| chain.order().is_none() && chain.choice().is_none())
-    }
-}
-
-/// The error for a chain with several redundant joints. It names the joints that may be given.
-fn proposed(chain: &Chain, choice: &Choice) -> Error {
-    let last = choice.candidates.iter().find(|candidate| choice.given.contains(&candidate.joint));
-    let share = last.map(|last| format!(", with solutions on {:.0} % of the last one's range", 100.0 * last.share));
-    let options: Vec<String> = choice.given.iter().map(|joint| format!("--given {joint}")).collect();
-    let text = format!(
-        "{} joints must be given: the `{}` task determines {} of the {}; `--given {}` takes {}{}",
-        choice.given.len(),
-        chain.task().name(),
-        chain.task().freedoms(),
-        chain.independent().len() + chain.given_inputs().len(),
-        Ends::AUTO,
-        options.join(" "),
-        share.unwrap_or_default()
-    );
-    Error::new(ErrorKind::PositiveDimensional, text)
-}
-
-/// The equations of `chain`, if its task can be solved as one system.
-fn formulated(chain: &Chain) -> Result<Option<System>> {
-    let by_steps = chain.order().is_none() && chain.choice().is_none();
-    let follows = chain.joints().iter().any(|joint| joint.mimic.is_some());
-    match formulate(chain) {
-        Ok(system) => Ok(Some(system)),
-        Err(error) if error.kind() == ErrorKind::Unsupported && (by_steps || !follows) => Ok(None),
-        // Equations need valid names; a chain that is solved joint by joint does not.
-        Err(_) if by_steps => Ok(None),
-        Err(error) => Err(error),
     }
 }
 

@@ -19,7 +19,7 @@ const MOST_TEXT: usize = limits::XML_TEXT;
 const DEEPEST: usize = limits::XML_DEPTH;
 
 /// Advice about xacro in messages.
-pub const EXPAND: &str = "a macro language for URDF; run `xacro robot.urdf.xacro > robot.urdf` first";
+pub const EXPAND: &str = "a macro language for URDF; give its file, which is expanded when it is read";
 
 /// An element with its attributes and children.
 #[derive(Debug)]
