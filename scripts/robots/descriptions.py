@@ -113,8 +113,6 @@ def chain(name, base, tip):
         return serial(*_modified(locate(name).read_text()))
     if file.endswith(".py"):
         return serial(*_table(locate(name), base))
-    if file.endswith(".rs"):
-        return serial(*_opw(re.search(rf"fn {base}\(.*?\n    }}", locate(name).read_text(), re.S).group(0)))
     if file.endswith(".yaml"):
         return serial(*_opw(locate(name).read_text()))
     model = _model(name)
