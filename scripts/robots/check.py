@@ -18,6 +18,7 @@ import numpy
 
 import align
 import descriptions
+from chains import chain
 
 HERE = Path(__file__).resolve().parent
 ROBOTS = HERE.parents[1] / "crates" / "robot" / "src" / "robots"
@@ -36,10 +37,10 @@ class Ours:
         strip = lambda name: name.removeprefix(prefix)
         data = tomllib.loads(self.path.read_text())
         self.arguments = ["--base", strip(entry["base"]), "--tip", strip(entry["tip"])] if "link" in data else []
-        joints = [joint for joint in data["joint"] if joint["type"] != "fixed"]
-        self.slides = [joint["type"] == "prismatic" for joint in joints]
-        ends = [joint.get("limits", (-math.pi, math.pi)) for joint in joints]
-        self.low, self.high = numpy.array(ends, dtype=float).T
+        ends = {key: strip(entry[key]) for key in ("base", "tip") if key in entry}
+        joints = [joint for joint in chain(data, ends) if joint["type"] != "fixed"]
+        limits = numpy.array([joint.get("limits", (-math.pi, math.pi)) for joint in joints], dtype=float)
+        self.low, self.high = (numpy.deg2rad(limits) if data.get("angle_unit") == "deg" else limits).T
         self.count = len(joints)
 
     def poses(self, values):

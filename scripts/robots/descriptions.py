@@ -109,10 +109,10 @@ def chain(name, base, tip):
     package, file = name.split(":")
     if package == "ssik":
         return _ssik(file)
+    if package == "robotkinematicscatalogue":
+        return serial(*_modified(locate(name).read_text()))
     if file.endswith(".py"):
         return serial(*_table(locate(name), base))
-    if file.endswith(".rs"):
-        return serial(*_opw(re.search(rf"fn {base}\(.*?\n    }}", locate(name).read_text(), re.S).group(0)))
     if file.endswith(".yaml"):
         return serial(*_opw(locate(name).read_text()))
     model = _model(name)
@@ -245,6 +245,13 @@ def _table(path, name):
         if _Recorder.links is None:
             raise ValueError(f"{path}: {error!r}") from error
     return frames(_Recorder.links)
+
+
+def _modified(text):
+    """The chain of a modified table in millimetres, an array `DHM` of rows (alpha, a, d, theta); senses are left to the alignment."""
+    rows = eval(re.search(r"DHM = np\.array\((\[.*?\]\s*)\)", text, re.S).group(1), {"np": numpy, "__builtins__": {}})
+    make = lambda alpha, a, d, theta: Link("R", True, d=d / 1000, a=a / 1000, alpha=alpha, theta=theta)
+    return frames([make(*row) for row in rows])
 
 
 def frames(rows):

@@ -4,7 +4,7 @@
 
 A chain from base to tip becomes a robot in TOML: its joints with origins, axes, limits, speeds and efforts, its links with masses where
 the description has them. Numbers are the decimals of the description, without zeros at their ends; masses, centres
-and moments have at most seven digits. Where the frame of inertia is turned,
+and moments have at most seven digits, and limits that a xacro computed nine decimals, rounded towards zero. Where the frame of inertia is turned,
 moments and products of inertia are those of the description turned into the link's frame, to seven digits.
 """
 
@@ -13,7 +13,7 @@ import math
 import re
 import sys
 import tomllib
-from decimal import Decimal
+from decimal import ROUND_DOWN, Decimal
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -44,6 +44,12 @@ def number(text):
     whole, part = whole.lstrip("0") or "0", part.rstrip("0")
     out = ("-" if sign == "-" else "") + whole + (f".{part}" if part else "")
     return out + (f"e{int(exponent)}" if exponent and int(exponent) else "")
+
+
+def short(text):
+    """A limit or a speed: what a xacro computed with twelve decimals or more is rounded towards zero at nine."""
+    out = number(text)
+    return number(str(Decimal(out).quantize(Decimal("1e-9"), ROUND_DOWN))) if len(out.partition(".")[2]) >= 12 and "e" not in out else out
 
 
 def seven(text):
@@ -78,11 +84,11 @@ def limits(joint):
     out = ""
     low, high = limit.get("lower") or "0", limit.get("upper") or "0"
     if joint.get("type") != "continuous" and float(low) < float(high) < HUGE:
-        out += f", limits = [{number(low)}, {number(high)}]"
+        out += f", limits = [{short(low)}, {short(high)}]"
     for key, name in (("velocity", "speed"), ("effort", "effort")):
         text = limit.get(key)
         if text and 0 < float(text) < HUGE:
-            out += f", {name} = {number(text)}"
+            out += f", {name} = {short(text)}"
     return out
 
 

@@ -5,6 +5,8 @@ from collections import Counter
 from itertools import groupby
 from pathlib import Path
 
+from chains import chain
+
 ROOT = Path(__file__).resolve().parents[2]
 ROBOTS = ROOT / "crates" / "robot" / "src" / "robots"
 PAGE = ROOT / "docs" / "named_robots.md"
@@ -38,24 +40,6 @@ def row(entry):
     difference = f"{entry['difference']:.0e}" + (", fitted" if entry.get("fitted") else "") if "checked" in entry else ""
     cells = [f"`{entry['name']}`", entry["model"], entry["kind"], str(len(joints)), "yes" if has_masses else "", data["source"], checked, difference]
     return "| " + " | ".join(cells) + " |"
-
-
-def chain(data, entry):
-    """The joints from base to tip; all of a file that is a chain. A leg described from the sole up has its tip above its base."""
-    if "base" not in entry:
-        return data["joint"]
-    above = {joint["child"]: joint for joint in data["joint"]}
-    above |= {frame["name"]: {"type": "fixed", "parent": frame["on"], "child": frame["name"]} for frame in data.get("frame", [])}
-
-    def path(link):
-        found = []
-        while link in above:
-            found.append(above[link])
-            link = above[link]["parent"]
-        return found
-
-    down, up = path(entry["tip"]), path(entry["base"])
-    return [joint for joint in down if joint not in up] + [joint for joint in up if joint not in down]
 
 
 def main():
