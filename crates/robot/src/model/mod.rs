@@ -21,6 +21,7 @@ mod stl;
 pub mod toml;
 mod unit;
 pub mod urdf;
+mod xml_format;
 
 pub(crate) use check::{is_plain, listing, some_among};
 pub use fault::{Fault, Part};
@@ -30,3 +31,4 @@ pub use mesh::{Meshes, Surface};
 pub use parts::RobotParts;
 pub use robot::Robot;
 pub use unit::LengthUnit;
+pub use xml_format::XmlFormat;

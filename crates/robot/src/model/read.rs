@@ -17,14 +17,14 @@ impl Robot {
         let path = path.as_ref();
         let named = path.extension().is_some_and(|end| ["urdf", "xml"].iter().any(|xml| end.eq_ignore_ascii_case(xml)));
         let bytes = read_bytes(path, if named { URDF_LIMIT } else { TEXT_LIMIT })?;
-        Robot::from_bytes(bytes, named).map_err(|error| error.in_file(path))
+        Robot::from_bytes(bytes, named, path).map_err(|error| error.in_file(path))
     }
 
-    fn from_bytes(bytes: Vec<u8>, named: bool) -> Result<Robot> {
+    fn from_bytes(bytes: Vec<u8>, named: bool, path: &Path) -> Result<Robot> {
         refuse_binary(&bytes)?;
         if named || is_xml(&bytes) {
             let xml = decode_xml(&bytes)?;
-            let robot = Robot::from_urdf(&xml.text).map_err(|error| explained(error, &xml.text))?;
+            let robot = Robot::from_xml(&xml.text, Some(path)).map_err(|error| explained(error, &xml.text))?;
             return Ok(robot.with_notes(xml.notes));
         }
         let text = text_of(bytes)?;

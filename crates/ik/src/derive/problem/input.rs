@@ -13,8 +13,8 @@ use groebot_robot::document::{
 };
 use groebot_robot::kinematics::ideal::Report;
 use groebot_robot::kinematics::{Chain, DhTable, LinkPath, TipChoice};
-use groebot_robot::model::Robot;
 use groebot_robot::model::urdf::URDF_LIMIT;
+use groebot_robot::model::{Robot, XmlFormat};
 
 /// The allowed names of the input in a mechanism's folder: a chain (or a DH table), a system, a URDF robot, coupled chains, a TOML robot.
 pub const INPUT_NAMES: [&str; 5] = ["0_chain.toml", "0_system.toml", "0_robot.urdf", COUPLED_NAME, "0_robot.toml"];
@@ -77,9 +77,9 @@ impl InputFile {
             text_of(bytes).map(|text| (text, Vec::new()))
         }
         .map_err(at_file)?;
-        let robot = || Robot::from_urdf(&text).map(|robot| Description::Robot(robot.with_notes(notes)));
-        let described = if is_xml { robot() } else { from_toml(&text, &file) };
-        let description = described.map_err(|error| at_file(explained(error, &text)))?;
+        let robot = || from_xml(text.clone(), &file, notes);
+        let described = if is_xml { robot() } else { from_toml(&text, &file).map(|read| (read, text.clone())) };
+        let (description, text) = described.map_err(|error| at_file(explained(error, &text)))?;
         let name = match description {
             Description::Chain(_) => INPUT_NAMES[0],
             Description::System(_) => INPUT_NAMES[1],
@@ -147,6 +147,29 @@ fn read_ends(file: &Path) -> Result<Ends> {
     let is_named = file.file_name().is_some_and(|name| INPUT_NAMES.iter().any(|known| name == *known));
     let task_file = file.with_file_name(TASK_NAME);
     if is_named && task_file.is_file() { Ends::read(&task_file) } else { Ok(Ends::default()) }
+}
+
+/// Reads the robot in the XML `text` of `file`, with its text in a mechanism's folder. That is URDF: an MJCF or SDF is
+/// written as URDF and read again, because it may include other files.
+fn from_xml(text: String, file: &Path, notes: Vec<String>) -> Result<(Description, String)> {
+    let robot = Robot::from_xml(&text, Some(file))?.with_notes(notes);
+    if XmlFormat::of(&text) == XmlFormat::Urdf {
+        return Ok((Description::Robot(robot), text));
+    }
+    let urdf = robot.to_urdf();
+    let again = Robot::from_urdf(&urdf).map_err(|error| error.with_context("as URDF"))?;
+    let mut parts = again.parts().clone();
+    // Messages are about the file itself.
+    parts.notes.clone_from(&robot.parts().notes);
+    parts.faults.clear();
+    for (link, own) in parts.links.iter_mut().zip(robot.links()) {
+        (link.line, link.notes) = (own.line, own.notes.clone());
+    }
+    for (joint, own) in parts.joints.iter_mut().zip(robot.joints()) {
+        (joint.line, joint.notes) = (own.line, own.notes.clone());
+    }
+    let again = Robot::with_faults(parts)?;
+    Ok((Description::Robot(again), urdf))
 }
 
 /// Reads the description in the text of `file`.
