@@ -282,11 +282,10 @@ def tip(urdf, chain, link, asked, reached, path, groebot, result):
 
 
 def pose_of(answer):
-    pose = answer["pose"]
     matrix = np.zeros(9)
-    x, y, z, w = pose["quaternion"]
+    x, y, z, w = answer["quaternion_xyzw"]
     mujoco.mju_quat2Mat(matrix, np.array([w, x, y, z]))
-    return np.array(pose["position"]), matrix.reshape(3, 3)
+    return np.array(answer["position"]), matrix.reshape(3, 3)
 
 
 def masses(model, urdf, bodies, result):

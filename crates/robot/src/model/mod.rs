@@ -4,6 +4,7 @@
 //! and masses are exact (0.1029 is 1029/10000), and available as doubles. A named frame, such as a sole or a hand, is a
 //! link without mass at a fixed joint, as in a URDF. A [`Chain`](crate::kinematics::Chain) is a path in a robot.
 
+mod assembly;
 mod attributes;
 mod changed;
 mod check;
@@ -13,10 +14,12 @@ mod joint;
 mod link;
 mod mesh;
 pub mod mjcf;
+mod names;
 mod outline;
 mod parts;
 mod read;
 mod robot;
+pub mod sdf;
 mod stl;
 pub mod toml;
 mod unit;

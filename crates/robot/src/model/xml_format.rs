@@ -52,7 +52,7 @@ impl Robot {
         match XmlFormat::of(text) {
             XmlFormat::Urdf => Robot::from_urdf(text),
             XmlFormat::Mjcf => Robot::from_mjcf(text, file),
-            XmlFormat::Sdf => Robot::from_urdf(text),
+            XmlFormat::Sdf => Robot::from_sdf(text, file),
         }
     }
 }

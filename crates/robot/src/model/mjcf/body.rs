@@ -1,5 +1,7 @@
 //! The tree of bodies of an MJCF as links and joints. Main type: [`Reader`].
 
+use std::collections::HashMap;
+
 use num_traits::Zero;
 
 use super::compiler::{Compiler, MassSource, double};
@@ -8,8 +10,9 @@ use super::frame::placement;
 use super::geom::{self, Assets, Context};
 use super::inertia;
 use super::joint::{self, Axis};
-use super::names::Names;
 use crate::document::shown;
+use crate::model::assembly::{Step, assemble, attach};
+use crate::model::names::Names;
 use crate::model::urdf::xml::Element;
 use crate::model::{Joint, JointType, Link, Meshes, Robot, RobotParts};
 use crate::spatial::exact::{Placement, vector};
@@ -45,8 +48,8 @@ pub struct Reader<'r, 'e> {
     assets: Assets<'e>,
     names: Names,
     pub(super) parts: RobotParts,
-    /// The value of each joint in the model's initial position \[rad or m\], in the order of the parts.
-    pub(super) references: Vec<BigRational>,
+    /// The value of each joint in the model's initial position \[rad or m\], by name.
+    pub(super) references: HashMap<String, BigRational>,
     /// The number of bodies.
     count: usize,
 }
@@ -60,8 +63,8 @@ impl<'r, 'e> Reader<'r, 'e> {
         let name = root.attribute("model").map(str::trim).filter(|name| !name.is_empty()).unwrap_or("robot");
         let parts = RobotParts { name: name.to_owned(), ..RobotParts::default() };
         let assets = Assets::read(root, classes)?;
-        let names = Names::of(root);
-        Ok(Reader { root, compiler, classes, files, assets, names, parts, references: Vec::new(), count: 0 })
+        let names = Names::of_mjcf(root);
+        Ok(Reader { root, compiler, classes, files, assets, names, parts, references: HashMap::new(), count: 0 })
     }
 
     /// Adds a note about the whole model.
@@ -188,15 +191,14 @@ impl<'r, 'e> Reader<'r, 'e> {
         if let Some(parent) = parent {
             self.read_joints(&content.joints, parent, &name, at).map_err(named)?;
         }
-        let mut link = Link { line: line(element), ..Link::new(&name) };
+        let mut link = Link { line: element.own_line(), ..Link::new(&name) };
         self.read_mass(&content, &mut link).map_err(named)?;
         self.parts.links.push(link);
         self.read_sites(&content.sites, &name)?;
         content.bodies.iter().try_for_each(|child| self.read_body(child, Some(&name)))
     }
 
-    /// Reads the joints of a body, from the link `parent` to the link `body` at the frame `at` in it. Between two joints
-    /// is a link without mass, and between a joint beside the body's origin and the body.
+    /// Reads the joints of a body, from the link `parent` to the link `body` at the frame `at` in it.
     fn read_joints(&mut self, joints: &[Part<'e>], parent: &str, body: &str, at: Placement) -> Result<()> {
         let mut axes: Vec<(Axis, String, Option<usize>)> = Vec::new();
         for part in joints {
@@ -207,32 +209,30 @@ impl<'r, 'e> Reader<'r, 'e> {
             let own = part.element.attribute("name").filter(|name| !name.is_empty()).map(str::to_owned);
             let own = own.unwrap_or_else(|| self.names.joint(&format!("{body}_joint")));
             for axis in joint::read(&styled, self.compiler)? {
-                axes.push((in_frame(axis, &part.frame), own.clone(), line(part.element)));
+                axes.push((in_frame(axis, &part.frame), own.clone(), part.element.own_line()));
             }
         }
-        let (mut above, mut at, mut anchor) = (parent.to_owned(), at, vector::zero());
-        let last = axes.len();
-        for (place, (axis, own, line)) in axes.into_iter().enumerate() {
-            let step = Placement { origin: vector::sub(&axis.anchor, &anchor), ..Placement::identity() };
-            anchor.clone_from(&axis.anchor);
-            let name = if axis.suffix.is_empty() { own } else { self.names.joint(&(own + &axis.suffix)) };
-            let is_end = place + 1 == last && vector::is_zero(&anchor);
-            let below = if is_end { body.to_owned() } else { self.names.link(&format!("{name}_link")) };
-            self.add_joint(
-                axis,
-                Joint { line, ..Joint::new(&name, JointType::Fixed, &above, &below) },
-                &at.then(&step),
-            );
-            if !is_end {
-                self.parts.links.push(Link::new(&below));
-            }
-            (above, at) = (below, Placement::identity());
-        }
-        if above != body || last == 0 {
-            let back = Placement { origin: anchor.map(|x| -x), ..Placement::identity() };
-            self.add_fixed(&above, body, &at.then(&back));
-        }
+        let steps = axes.into_iter().map(|(axis, own, line)| self.step(axis, own, line)).collect();
+        assemble(&mut self.parts, &mut self.names, [parent, body], at, steps);
         Ok(())
+    }
+
+    /// A joint with one degree of freedom. Its initial value is recorded.
+    fn step(&mut self, axis: Axis, own: String, line: Option<usize>) -> Step {
+        let name = if axis.suffix.is_empty() { own } else { self.names.joint(&(own + &axis.suffix)) };
+        let joint = Joint {
+            axis: axis.axis,
+            limits: axis.limits,
+            effort: axis.effort,
+            damping: axis.damping,
+            friction: axis.friction,
+            armature: axis.armature,
+            notes: axis.notes,
+            line,
+            ..Joint::new(&name, axis.kind, "", "")
+        };
+        self.references.insert(name, axis.reference);
+        Step { joint, anchor: axis.anchor, zero: axis.zero }
     }
 
     fn is_free(&self, part: &Part<'e>) -> Result<bool> {
@@ -249,35 +249,8 @@ impl<'r, 'e> Reader<'r, 'e> {
         let own = part.element.attribute("name").map(str::to_owned);
         let name = own.unwrap_or_else(|| self.names.joint(&format!("{body}_joint")));
         let joint = Joint::new(&name, JointType::Floating, parent, body);
-        self.push(Joint { origin: at.into(), line: line(part.element), ..joint }, BigRational::zero());
+        self.parts.joints.push(Joint { origin: at.into(), line: part.element.own_line(), ..joint });
         Ok(())
-    }
-
-    fn add_fixed(&mut self, parent: &str, child: &str, at: &Placement) {
-        let name = self.names.joint(&format!("{child}_joint"));
-        let joint = Joint::new(&name, JointType::Fixed, parent, child);
-        self.push(Joint { origin: at.clone().into(), ..joint }, BigRational::zero());
-    }
-
-    fn add_joint(&mut self, axis: Axis, bare: Joint, at: &Placement) {
-        let joint = Joint {
-            kind: axis.kind,
-            origin: at.then(&axis.zero).into(),
-            axis: axis.axis,
-            limits: axis.limits,
-            effort: axis.effort,
-            damping: axis.damping,
-            friction: axis.friction,
-            armature: axis.armature,
-            notes: axis.notes,
-            ..bare
-        };
-        self.push(joint, axis.reference);
-    }
-
-    fn push(&mut self, joint: Joint, reference: BigRational) {
-        self.parts.joints.push(joint);
-        self.references.push(reference);
     }
 
     /// Reads the mass and the shapes of a body.
@@ -299,7 +272,10 @@ impl<'r, 'e> Reader<'r, 'e> {
         if let Some(mass) = &mut link.mass
             && inertia::raise(mass, self.compiler)
         {
-            link.notes.push("its mass or inertia is raised to the compiler's `boundmass` or `boundinertia`".to_owned());
+            link.notes.push(
+                "its mass or inertia is changed by the compiler's `boundmass`, `boundinertia` or `balanceinertia`"
+                    .to_owned(),
+            );
         }
         Ok(())
     }
@@ -329,16 +305,11 @@ impl<'r, 'e> Reader<'r, 'e> {
             };
             let wanted = if self.names.has_link(given) { format!("{given}_site") } else { given.to_owned() };
             let name = self.names.link(&wanted);
-            self.parts.links.push(Link { line: line(part.element), ..Link::new(&name) });
-            self.add_fixed(body, &name, &part.frame.then(&own));
+            self.parts.links.push(Link { line: part.element.own_line(), ..Link::new(&name) });
+            attach(&mut self.parts, &mut self.names, [body, &name], part.frame.then(&own));
         }
         Ok(())
     }
-}
-
-/// The line of an element of the main file; elements of included files have none.
-pub fn line(element: &Element) -> Option<usize> {
-    element.file.is_none().then_some(element.line)
 }
 
 /// A joint's axis with its anchor and direction in the frame of the body, for a joint inside of `<frame>`.

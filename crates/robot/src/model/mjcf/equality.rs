@@ -51,14 +51,15 @@ impl<'e> Reader<'_, 'e> {
         if styled.holder("polycoef").is_none() {
             law[1] = num_traits::One::one();
         }
-        let place = |name: &str| self.parts.joints.iter().position(|joint| joint.name == name);
-        let (Some(own), Some(other)) = (place(follower), place(leader)) else {
+        let own = self.parts.joints.iter().position(|joint| joint.name == follower);
+        let reference = |name: &str| self.references.get(name);
+        let (Some(own), Some(start), Some(other)) = (own, reference(follower), reference(leader)) else {
             return ignored("one of its joints is not a hinge or slide of the robot");
         };
         if self.parts.joints[own].mimic.is_some() {
             return ignored("the joint already follows another one");
         }
-        let offset = absolute(&law[0], &law[1], &self.references[own], &self.references[other]);
+        let offset = absolute(&law[0], &law[1], start, other);
         let mimic = Mimic { leader: leader.to_owned(), multiplier: law[1].clone(), offset };
         self.parts.joints[own].mimic = Some(mimic);
         Ok(None)

@@ -6,7 +6,7 @@ use std::path::Path;
 use super::compiler::{Compiler, double, flag};
 use super::defaults::{Classes, MAIN, Styled};
 use super::frame::{from_z, placement};
-use super::inertia::{Uniform, of_mesh};
+use super::inertia::{MeshVolume, Uniform, of_mesh};
 use crate::document::shown;
 use crate::model::urdf::xml::Element;
 use crate::model::{Meshes, Shape, Solid, some_among};
@@ -216,11 +216,14 @@ fn read_mesh<'e>(geom: &Styled<'e>, pose: &Pose, context: &Context<'_, 'e>, read
     if mesh.holder_of(&["refpos", "refquat"]).is_some() {
         read.note = note("`refpos` and `refquat` are ignored");
     }
+    if mesh.attribute("inertia").is_some_and(|word| word == "convex" || word == "shell") {
+        read.note = note("its inertia is computed from its exact volume, not from its hull or surface");
+    }
     // A mass or a density of zero needs no triangles.
     if context.weighs && weight(geom, 1.0, context.compiler)? > 0.0 {
         match context.files.triangles(&solid) {
             Ok(surface) => {
-                let (volume, unit) = of_mesh(&surface);
+                let (volume, unit) = of_mesh(&surface, volume_rule(mesh)?);
                 let mass = weight(geom, volume, context.compiler)?;
                 let share = if volume > 0.0 { mass / volume } else { 0.0 };
                 let own = Inertia::unchecked(mass, unit.centre_of_mass(), unit.rotational() * share);
@@ -231,6 +234,12 @@ fn read_mesh<'e>(geom: &Styled<'e>, pose: &Pose, context: &Context<'_, 'e>, read
     }
     read.shape = Some(placed(solid, pose));
     Ok(())
+}
+
+/// How the volume of a mesh asset is computed. For `convex` and `shell` it is exact.
+fn volume_rule(mesh: &Styled<'_>) -> Result<MeshVolume> {
+    let word = mesh.choice("inertia", &["convex", "exact", "legacy", "shell"])?.unwrap_or("legacy");
+    Ok(if word == "legacy" { MeshVolume::Absolute } else { MeshVolume::Exact })
 }
 
 /// The solid of a mesh asset; `None` for a mesh without a file.

@@ -74,7 +74,7 @@ impl Included {
             return Err(include.error(ErrorKind::BadValue, &text));
         }
         let mut root = Element::parse_whole(&text).map_err(|error| error.in_file(&file))?;
-        mark(&mut root, &Arc::from(file.as_path()));
+        root.mark(&Arc::from(file.as_path()));
         Ok(self.expand(root, depth)?.children)
     }
 
@@ -121,12 +121,6 @@ fn stays_near(path: &Path) -> bool {
         }
         level >= -1
     })
-}
-
-/// Records the included file in all its elements, for error messages.
-fn mark(element: &mut Element, file: &Arc<Path>) {
-    element.file = Some(Arc::clone(file));
-    element.children.iter_mut().for_each(|child| mark(child, file));
 }
 
 fn shown_path(path: &Path) -> String {

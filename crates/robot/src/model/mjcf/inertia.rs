@@ -55,8 +55,8 @@ fn described(inertia: &Inertia) -> Mass {
     Mass { mass: exact(inertia.mass()), origin: Origin::from(origin), moments }
 }
 
-/// Applies the smallest mass and the smallest moment of the compiler to a diagonal tensor. Returns whether a number is
-/// changed.
+/// Applies the smallest mass of the compiler, and to a diagonal tensor the smallest moment and the balance of moments.
+/// Returns whether a number is changed.
 pub fn raise(mass: &mut Mass, compiler: &Compiler) -> bool {
     let mut is_changed = false;
     let mut raise = |number: &mut BigRational, least: f64| {
@@ -69,6 +69,12 @@ pub fn raise(mass: &mut Mass, compiler: &Compiler) -> bool {
     let is_diagonal = [1, 2, 4].iter().all(|place| mass.moments[*place] == BigRational::default());
     if is_diagonal {
         [0, 3, 5].into_iter().for_each(|place| raise(&mut mass.moments[place], compiler.least_inertia));
+    }
+    let [xx, _, _, yy, _, zz] = mass.moments.each_ref().map(|moment| moment.to_f64().unwrap_or(f64::NAN));
+    if is_diagonal && compiler.balances && (xx + yy < zz || xx + zz < yy || yy + zz < xx) {
+        let mean = (&mass.moments[0] + &mass.moments[3] + &mass.moments[5]) / BigRational::from_integer(3.into());
+        [0, 3, 5].into_iter().for_each(|place| mass.moments[place].clone_from(&mean));
+        is_changed = true;
     }
     is_changed
 }
@@ -139,25 +145,54 @@ impl Uniform {
     }
 }
 
-/// The volume of a closed mesh \[m^3\], and its inertia for a density of one: the sum over the tetrahedra of its
-/// triangles and the origin, with their signs.
-pub fn of_mesh(surface: &Surface) -> (f64, Inertia) {
-    let (mut volume, mut first, mut second) = (0.0, Vector3::zeros(), Matrix3::zeros());
-    for triangle in &surface.triangles {
-        let [a, b, c] = triangle.map(|place| surface.points[place as usize].coords);
-        let part = a.dot(&b.cross(&c)) / 6.0;
-        let sum = a + b + c;
-        volume += part;
-        first += sum * (part / 4.0);
-        second += (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose()) * (part / 20.0);
+/// How MuJoCo computes the volume of a mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MeshVolume {
+    /// By the signed volumes of the pyramids over the triangles.
+    Exact,
+    /// By their absolute values, from the centroid of the surface: MuJoCo's default, `legacy`.
+    Absolute,
+}
+
+/// The volume of a closed mesh \[m^3\], and its inertia for a density of one: the sum over the pyramids of its
+/// triangles, first from the centroid of the surface and then from the centre of mass, as in MuJoCo.
+pub fn of_mesh(surface: &Surface, rule: MeshVolume) -> (f64, Inertia) {
+    let corners = |from: Vector3<f64>| {
+        let corner = move |place: u32| surface.points[place as usize].coords - from;
+        surface.triangles.iter().map(move |triangle| triangle.map(corner))
+    };
+    let part = |[a, b, c]: &[Vector3<f64>; 3]| {
+        let signed = a.dot(&b.cross(c)) / 6.0;
+        if rule == MeshVolume::Absolute { signed.abs() } else { signed }
+    };
+    let (mut area, mut centroid) = (0.0, Vector3::zeros());
+    for [a, b, c] in corners(Vector3::zeros()) {
+        let own = (b - a).cross(&(c - a)).norm();
+        area += own;
+        centroid += (a + b + c) * (own / 3.0);
     }
-    let sign = if volume < 0.0 { -1.0 } else { 1.0 };
-    let (volume, first, second) = (volume * sign, first * sign, second * sign);
-    if volume <= 0.0 {
+    if area <= 0.0 {
         return (0.0, Inertia::none());
     }
-    let centre = first / volume;
-    let about_centre = second - centre * centre.transpose() * volume;
-    let tensor = Matrix3::from_diagonal_element(about_centre.trace()) - about_centre;
+    centroid /= area;
+    let (mut volume, mut first) = (0.0, Vector3::zeros());
+    for triangle in corners(centroid) {
+        let own = part(&triangle);
+        volume += own;
+        first += triangle.iter().sum::<Vector3<f64>>() * (own / 4.0);
+    }
+    if volume == 0.0 || !volume.is_finite() {
+        return (0.0, Inertia::none());
+    }
+    let centre = centroid + first / volume;
+    let mut second = Matrix3::zeros();
+    for triangle in corners(centre) {
+        let sum = triangle.iter().sum::<Vector3<f64>>();
+        let squares: Matrix3<f64> = triangle.iter().map(|corner| corner * corner.transpose()).sum();
+        second += (squares + sum * sum.transpose()) * (part(&triangle) / 20.0);
+    }
+    // A mesh with its triangles inside out has a negative volume.
+    let (volume, second) = (volume.abs(), second * volume.signum());
+    let tensor = Matrix3::from_diagonal_element(second.trace()) - second;
     (volume, Inertia::unchecked(volume, centre.into(), tensor))
 }

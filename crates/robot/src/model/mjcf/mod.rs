@@ -13,7 +13,6 @@ mod geom;
 mod include;
 mod inertia;
 mod joint;
-mod names;
 mod write;
 
 use std::path::Path;

@@ -26,7 +26,7 @@ const DEEPEST: usize = limits::XML_DEPTH;
 pub const EXPAND: &str = "a macro language for URDF; run `xacro robot.urdf.xacro > robot.urdf` first";
 
 /// An element with its attributes and children.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Element {
     pub name: String,
     pub line: usize,
@@ -81,6 +81,23 @@ impl Element {
     /// All attributes, each with its name.
     pub fn attributes(&self) -> impl Iterator<Item = (&str, &str)> {
         self.attributes.iter().map(|(name, value)| (name.as_str(), value.as_str()))
+    }
+
+    /// Sets the text of an attribute.
+    pub fn set(&mut self, name: &str, value: &str) {
+        self.attributes.retain(|(key, _)| key != name);
+        self.attributes.push((name.to_owned(), value.to_owned()));
+    }
+
+    /// Records the included file in this element and those in it, for error messages.
+    pub fn mark(&mut self, file: &Arc<Path>) {
+        self.file = Some(Arc::clone(file));
+        self.children.iter_mut().for_each(|child| child.mark(file));
+    }
+
+    /// The line in the description's own file; `None` for an element of an included file.
+    pub fn own_line(&self) -> Option<usize> {
+        self.file.is_none().then_some(self.line)
     }
 
     /// The text of a required attribute.

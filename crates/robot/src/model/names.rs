@@ -2,7 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::model::urdf::xml::Element;
+use super::urdf::xml::Element;
 
 /// The names in use.
 #[derive(Default)]
@@ -14,8 +14,8 @@ pub struct Names {
 }
 
 impl Names {
-    /// The names of all bodies and joints below `root`.
-    pub fn of(root: &Element) -> Names {
+    /// The names of all bodies and joints of an MJCF.
+    pub fn of_mjcf(root: &Element) -> Names {
         let mut names = Names::default();
         names.collect(root);
         names
@@ -44,6 +44,16 @@ impl Names {
     /// An unused name for a joint: `wanted`, or `wanted` and a number.
     pub fn joint(&mut self, wanted: &str) -> String {
         unused(&mut self.joints, &mut self.next, wanted)
+    }
+
+    /// Records a name of the file for a link.
+    pub fn take_link(&mut self, name: &str) {
+        self.links.insert(name.to_owned());
+    }
+
+    /// Records a name of the file for a joint.
+    pub fn take_joint(&mut self, name: &str) {
+        self.joints.insert(name.to_owned());
     }
 
     /// Whether a link has this name.
