@@ -1,6 +1,6 @@
 //! The description of a robot: a tree of links and joints with masses, shapes and limits. Main type: [`Robot`].
 //!
-//! It is read from URDF ([`urdf`]) or TOML ([`toml`]), and written as URDF and MJCF ([`mjcf`]). Positions, directions
+//! It is read from URDF ([`urdf`]), MJCF ([`mjcf`]), SDF ([`sdf`]) or TOML ([`toml`]), and written as URDF, MJCF and SDF. Positions, directions
 //! and masses are exact (0.1029 is 1029/10000), and available as doubles. A named frame, such as a sole or a hand, is a
 //! link without mass at a fixed joint, as in a URDF. A [`Chain`](crate::kinematics::Chain) is a path in a robot.
 

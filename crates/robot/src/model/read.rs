@@ -5,18 +5,20 @@ use std::path::Path;
 use super::Robot;
 use super::urdf::URDF_LIMIT;
 use crate::Result;
-use crate::document::{TEXT_LIMIT, decode_xml, explained, is_xml, read_bytes, refuse_binary, text_of};
+use crate::document::{TEXT_LIMIT, decode_xml, explained, is_xml, read_description, refuse_binary, text_of};
 
 impl Robot {
-    /// The robot that the file at `path` describes: a URDF where the file's name ends in `.urdf` or `.xml`, or where its text starts with `<`; otherwise TOML.
+    /// The robot that the file at `path` describes: XML where the file's name ends in `.urdf`, `.xml`, `.sdf` or `.mjcf`, or where its text starts with `<`; otherwise TOML. The root element of XML gives the format: `<mujoco>` for MJCF, `<sdf>` for SDF, otherwise URDF.
     ///
     /// # Errors
-    /// As [`read_bytes`], with a limit of four megabytes for a name that ends in `.urdf` or `.xml` and of one megabyte for others; as [`decode_xml`] and
-    /// [`Robot::from_urdf`], or [`Robot::from_toml`]; [`crate::ErrorKind::Unsupported`] for archives, JSON, YAML and tables. All have the file.
+    /// As [`read_description`], with a limit of four megabytes for these names and of one megabyte for others; as [`decode_xml`] and
+    /// [`Robot::from_xml`], or [`Robot::from_toml`]; [`crate::ErrorKind::Unsupported`] for archives, JSON, YAML and tables. All have the file.
     pub fn read(path: impl AsRef<Path>) -> Result<Robot> {
         let path = path.as_ref();
-        let named = path.extension().is_some_and(|end| ["urdf", "xml"].iter().any(|xml| end.eq_ignore_ascii_case(xml)));
-        let bytes = read_bytes(path, if named { URDF_LIMIT } else { TEXT_LIMIT })?;
+        let named = path
+            .extension()
+            .is_some_and(|end| ["urdf", "xml", "sdf", "mjcf"].iter().any(|xml| end.eq_ignore_ascii_case(xml)));
+        let bytes = read_description(path, if named { URDF_LIMIT } else { TEXT_LIMIT })?;
         Robot::from_bytes(bytes, named, path).map_err(|error| error.in_file(path))
     }
 

@@ -9,7 +9,7 @@ use crate::derive::problem::ends::{Ends, TASK_NAME};
 use crate::derive::problem::formulate::formulate;
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::document::{
-    Document, TEXT_LIMIT, decode_xml, explained, is_stdin, is_xml, read_bytes, refuse_binary, text_of,
+    Document, TEXT_LIMIT, decode_xml, explained, is_stdin, is_xml, read_description, refuse_binary, text_of,
 };
 use groebot_robot::kinematics::ideal::Report;
 use groebot_robot::kinematics::{Chain, DhTable, LinkPath, TipChoice};
@@ -53,7 +53,7 @@ impl InputFile {
     /// Reads a mechanism's folder, an input file or, as `-`, standard input. In a folder, it also reads [`TASK_NAME`].
     ///
     /// Meshes and files of coupled chains that standard input names are searched from the current folder. The content decides the type:
-    /// * a robot: a file `.urdf` or `.xml`, text that starts with `<`, or TOML with a `[[link]]`;
+    /// * a robot: a file `.urdf`, `.xml`, `.sdf` or `.mjcf`, text that starts with `<` (URDF, MJCF or SDF), or TOML with a `[[link]]`;
     /// * coupled chains: TOML with a `[[chain]]`;
     /// * a DH table: TOML with a `[dh]`;
     /// * a chain: TOML with a `[tip]` or `[task]`;
@@ -61,14 +61,15 @@ impl InputFile {
     ///
     /// # Errors
     /// [`ErrorKind::Io`] for a file that cannot be read; [`ErrorKind::BadValue`] for a folder without exactly one input. [`ErrorKind::Unsupported`] for
-    /// archives, JSON, YAML, tables and other files that are not descriptions. As [`decode_xml`], [`Robot::from_urdf`], [`CoupledChains::from_toml`],
+    /// archives, JSON, YAML, tables and other files that are not descriptions. As [`decode_xml`], [`Robot::from_xml`], [`CoupledChains::from_toml`],
     /// [`Chain::from_dh_toml`], [`Chain::from_toml`] and [`System::from_toml`], with file and line.
     pub fn read(path: &Path) -> Result<InputFile> {
         let file = if path.is_dir() { input_in(path)? } else { path.to_owned() };
         let at_file = |error: Error| error.in_file(&file);
-        let ends_in_xml =
-            file.extension().is_some_and(|end| end.eq_ignore_ascii_case("urdf") || end.eq_ignore_ascii_case("xml"));
-        let bytes = read_bytes(&file, if ends_in_xml || is_stdin(&file) { URDF_LIMIT } else { TEXT_LIMIT })?;
+        let ends_in_xml = file
+            .extension()
+            .is_some_and(|end| ["urdf", "xml", "sdf", "mjcf"].iter().any(|xml| end.eq_ignore_ascii_case(xml)));
+        let bytes = read_description(&file, if ends_in_xml || is_stdin(&file) { URDF_LIMIT } else { TEXT_LIMIT })?;
         refuse_binary(&bytes).map_err(at_file)?;
         let is_xml = ends_in_xml || is_xml(&bytes);
         let (text, notes) = if is_xml {

@@ -175,18 +175,19 @@ pub fn of_mesh(surface: &Surface, rule: MeshVolume) -> (f64, Inertia) {
         return (0.0, Inertia::none());
     }
     centroid /= area;
-    let (mut volume, mut first) = (0.0, Vector3::zeros());
+    let (mut first_volume, mut first) = (0.0, Vector3::zeros());
     for triangle in corners(centroid) {
         let own = part(&triangle);
-        volume += own;
+        first_volume += own;
         first += triangle.iter().sum::<Vector3<f64>>() * (own / 4.0);
     }
-    if volume == 0.0 || !volume.is_finite() {
+    if first_volume == 0.0 || !first_volume.is_finite() {
         return (0.0, Inertia::none());
     }
-    let centre = centroid + first / volume;
-    let mut second = Matrix3::zeros();
+    let centre = centroid + first / first_volume;
+    let (mut volume, mut second) = (0.0, Matrix3::zeros());
     for triangle in corners(centre) {
+        volume += part(&triangle);
         let sum = triangle.iter().sum::<Vector3<f64>>();
         let squares: Matrix3<f64> = triangle.iter().map(|corner| corner * corner.transpose()).sum();
         second += (squares + sum * sum.transpose()) * (part(&triangle) / 20.0);

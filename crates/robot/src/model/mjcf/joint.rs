@@ -115,6 +115,9 @@ fn with_dynamics(mut axis: Axis, styled: &Styled<'_>) -> Result<Axis> {
     axis.damping = damping.first().and_then(ToPrimitive::to_f64).unwrap_or(0.0);
     axis.friction = styled.float("frictionloss")?.unwrap_or(0.0);
     axis.armature = styled.float("armature")?.unwrap_or(0.0);
+    if styled.holder("springdamper").is_some() {
+        axis.notes.push("its `springdamper` is ignored, with the damping that follows from it".to_owned());
+    }
     if let Some([low, high]) = styled.floats("actuatorfrcrange")?
         && is_limited(styled, "actuatorfrclimited", [low, high], true)?
     {
