@@ -14,7 +14,7 @@ use tempfile::tempdir;
 
 use super::{Target, read, text};
 
-pub(super) const TARGETS: [Target; 11] = [
+pub(super) const TARGETS: [Target; 13] = [
     Target { name: "chain_toml", about: "chains, `kinematics::Chain::from_toml`", run: chain_toml, damaged: 200 },
     Target { name: "dh_toml", about: "Denavit-Hartenberg tables", run: dh_toml, damaged: 100 },
     Target { name: "system_toml", about: "equations of a mechanism, `derive::System`", run: system_toml, damaged: 200 },
@@ -28,6 +28,8 @@ pub(super) const TARGETS: [Target; 11] = [
         damaged: 100,
     },
     Target { name: "xacro", about: "descriptions in xacro, `model::xacro::expand`", run: xacro, damaged: 200 },
+    Target { name: "mjcf", about: "robots in MJCF, written in all formats", run: mjcf, damaged: 100 },
+    Target { name: "sdf", about: "robots in SDF, written in all formats", run: sdf, damaged: 100 },
     Target { name: "input", about: "any input file of `derive`, `derive::Source`", run: input, damaged: 100 },
     Target { name: "mesh", about: "STL, `model::Meshes::triangles`", run: mesh, damaged: 200 },
     Target { name: "mesh_path", about: "names of meshes, `model::Meshes::find`", run: mesh_path, damaged: 200 },
@@ -87,6 +89,30 @@ fn xacro(bytes: &[u8]) {
     let Some(expanded) = read(expand(&folder.path().join("robot.xacro"), &options)) else { return };
     assert!(expanded.text.len() as u64 <= XML_BYTES);
     let _ = read(expanded.robot());
+}
+
+fn mjcf(bytes: &[u8]) {
+    if let Some(robot) = read(Robot::from_mjcf(&text(bytes), None)) {
+        write(&robot);
+        write_sdf(&robot);
+    }
+}
+
+fn sdf(bytes: &[u8]) {
+    if let Some(robot) = read(Robot::from_sdf(&text(bytes), None)) {
+        write(&robot);
+        write_sdf(&robot);
+    }
+}
+
+/// A robot without faults, and without joints that SDF lacks, is written as SDF and read without faults.
+fn write_sdf(robot: &Robot) {
+    if read(robot.check()).is_none() {
+        return;
+    }
+    let Some(written) = read(robot.to_sdf(&mut Vec::new())) else { return };
+    let again = Robot::from_sdf(&written, None).and_then(|again| again.check());
+    again.unwrap_or_else(|error| panic!("{error}\n{written}"));
 }
 
 /// A robot without faults is written as URDF and MJCF. The URDF is read without faults and written unchanged.

@@ -18,6 +18,7 @@ const EXAMPLES: &str = "Examples:
   groebot export arm.wrl --to glb -o arm.glb
   groebot export nao_v5 --to mjcf -o nao.xml
   groebot export robot.toml --to urdf -o robot.urdf
+  groebot export panda.xml --to sdf -o panda.sdf
   groebot export jvrc1.urdf --to mjcf --outline=-0.1,0.13,-0.06,0.06,-0.1 -o jvrc1.xml
 
 Robots of groebot: nao_v5, rh0, teo. A walk, a path of an arm or a recording becomes an animated
@@ -40,13 +41,15 @@ enum Format {
     Urdf,
     /// Robot description for MuJoCo
     Mjcf,
+    /// Robot description for Gazebo
+    Sdf,
 }
 
 /// Exports a motion as an animated scene, or a robot, with masses, shapes, limits and actuators, in another format
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// A motion in CSV or JSON, a robot by name, a description in URDF or TOML, or VRML
+    /// A motion in CSV or JSON, a robot by name, a description in URDF, MJCF, SDF or TOML, or VRML
     #[arg(value_name = "MOTION-or-ROBOT-or-FILE")]
     input: PathBuf,
     /// The output format
@@ -73,7 +76,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let output =
         arguments.force.output(read.into_iter().flatten().map(PathBuf::as_path)).expects([arguments.out.as_ref()])?;
     let bytes = match arguments.to {
-        Format::Urdf | Format::Mjcf => arguments.robot()?.into_bytes(),
+        Format::Urdf | Format::Mjcf | Format::Sdf => arguments.robot()?.into_bytes(),
         Format::Glb if arguments.out.is_none() => {
             return Err(refused("a glb is binary; give its file by -o").into());
         }
@@ -98,7 +101,7 @@ impl Format {
         match self {
             Format::Glb => Kind::Plain,
             Format::Wrl => Kind::Vrml,
-            Format::X3d | Format::Urdf | Format::Mjcf => Kind::Markup,
+            Format::X3d | Format::Urdf | Format::Mjcf | Format::Sdf => Kind::Markup,
         }
     }
 }
@@ -111,11 +114,14 @@ impl Arguments {
     /// The robot in a format without motion.
     fn robot(&self) -> Result<String> {
         if ["csv", "json", "wrl"].iter().any(|end| moving::ends(&self.input, end)) {
-            let text = "urdf and mjcf describe a robot, not a motion or a scene; give --to glb, x3d or wrl, or a robot";
+            let text =
+                "urdf, mjcf and sdf describe a robot, not a motion or a scene; give --to glb, x3d or wrl, or a robot";
             return Err(refused(text).in_file(&self.input));
         }
         if self.robot.is_some() || self.meshes {
-            return Err(refused("--robot and --meshes are for motions and scenes; leave them out for urdf and mjcf"));
+            return Err(refused(
+                "--robot and --meshes are for motions and scenes; leave them out for urdf, mjcf and sdf",
+            ));
         }
         let (robot, meshes) = moving::described(&self.input, &self.soles.options())?;
         robot.check().map_err(|error| error.in_file(&self.input))?;
@@ -127,8 +133,18 @@ impl Arguments {
             notes.iter().for_each(|note| console::line("warning", note));
             return Ok(text);
         }
-        let text = robot.to_urdf();
-        let again = Robot::from_urdf(&text).and_then(|again| again.check());
+        if self.to == Format::Sdf {
+            let mut notes = Vec::new();
+            let text = robot.to_sdf(&mut notes).map_err(|error| error.in_file(&self.input))?;
+            notes.iter().for_each(|note| console::line("warning", note));
+            return self.reread(text, |text| Robot::from_sdf(text, None));
+        }
+        self.reread(robot.to_urdf(), Robot::from_urdf)
+    }
+
+    /// `text` if it is read back as a robot without faults.
+    fn reread(&self, text: String, read: impl Fn(&str) -> Result<Robot>) -> Result<String> {
+        let again = read(&text).and_then(|again| again.check());
         again.map_err(|error| error.with_context("what is written cannot be read back").in_file(&self.input))?;
         Ok(text)
     }
@@ -137,7 +153,7 @@ impl Arguments {
         let file = &self.input;
         if self.soles.is_given() {
             let text =
-                "--left, --right and --outline are for urdf and mjcf, where they replace the shapes of the soles";
+                "--left, --right and --outline are for urdf, mjcf and sdf, where they replace the shapes of the soles";
             return Err(refused(text).in_file(file));
         }
         let motion = moving::motion(file)?.map(|motion| motion.trajectory);

@@ -6,8 +6,8 @@ use super::derive::choice_text;
 use super::ends::{IdealEndArguments, TipLink};
 use super::{Outcome, console, json};
 use crate::{Error, ErrorKind, Result, Watch};
-use groebot_ik::derive::planner::Choice;
 use groebot_ik::derive::Source;
+use groebot_ik::derive::planner::Choice;
 use groebot_robot::kinematics::Chain;
 use groebot_robot::kinematics::screw::ScrewSolver;
 

@@ -5,6 +5,7 @@
 //! | a description in TOML, a task file | [`DESCRIPTION_BYTES`] |
 //! | a URDF or other XML | [`XML_BYTES`], [`XML_DEPTH`] levels, [`XML_ATTRIBUTES`] attributes and [`XML_TEXT`] bytes of text an element |
 //! | an expansion of xacro | [`XACRO_FILES`] files with [`XACRO_BYTES`], [`XACRO_STEPS`] steps, [`XACRO_DEPTH`] levels, texts and lists of [`XACRO_LENGTH`]; [`XML_BYTES`] of output |
+//! | the included files of an MJCF or SDF | [`XML_INCLUDES`], [`XML_INCLUDED_BYTES`], [`XML_ELEMENTS`] elements with them |
 //! | a robot | chains of [`FOLLOWERS`] mimic joints |
 //! | a mesh | [`MESH_BYTES`] |
 //! | a map | [`MAP_BYTES`] of YAML, [`YAML_DEPTH`] levels; [`IMAGE_BYTES`] of image, [`IMAGE_MEMORY`] in memory, [`MAP_CELLS`], [`CELL_METRES`] |
@@ -54,6 +55,12 @@ pub const XACRO_STEPS: usize = 5_000_000;
 pub const XACRO_DEPTH: usize = 500;
 /// Characters of a text and entries of a list in an expansion of xacro.
 pub const XACRO_LENGTH: usize = 1_000_000;
+/// Elements of an MJCF or SDF with its included files.
+pub const XML_ELEMENTS: usize = 200_000;
+/// Included files of an MJCF or SDF.
+pub const XML_INCLUDES: usize = 200;
+/// Bytes of all included files of an MJCF or SDF.
+pub const XML_INCLUDED_BYTES: u64 = 16_000_000;
 /// Length of a chain of mimic joints, each of which follows the next.
 pub const FOLLOWERS: usize = 100;
 /// Bytes of a mesh.

@@ -119,15 +119,23 @@ fn what_cannot_be_read_says_how_it_could() {
 
 #[test]
 fn other_files_are_named() {
+    let stl = [vec![0; 80], 1_u32.to_le_bytes().to_vec(), vec![0; 50]].concat();
     let scene: &[u8] = b"#usda 1.0\ndef Xform \"robot\" {}\n";
     for (bytes, words) in [
         (
             &b"PK\x03\x04\x14\0\0\0"[..],
-            "this is a ZIP archive; give the URDF in it: descriptions are URDF (XML) or TOML",
+            "this is a ZIP archive; give the URDF in it: descriptions are URDF, MJCF or SDF (XML), or TOML",
         ),
         (b"\x1f\x8b\x08\0\0", "this is a gzip archive"),
         (b"PXR-USDC\0\0", "this is a USD scene"),
         (scene, "this is a USD scene"),
+        (b"\x28\xb5\x2f\xfd\0", "this is a zstd archive"),
+        (b"PK\x03\x04\x14\0\0\0\0robot.usdc", "this is a USDZ scene"),
+        (b"solid arm\nfacet normal 0 0 1\n", "this is an STL mesh; give the robot's URDF, which names its meshes"),
+        (&stl, "this is an STL mesh"),
+        (b"ply\nformat ascii 1.0\n", "this is a PLY mesh"),
+        (b"# arm\no arm\nv 0 0 1\nv 0 1 0\nv 1 0 0\nf 1 2 3\n", "this is an OBJ mesh"),
+        (b"<?xml version=\"1.0\"?>\n<COLLADA version=\"1.4.1\"/>", "this is a COLLADA mesh"),
         (b"{\"name\": \"arm\"}", "this is JSON; give the robot's URDF"),
         (b"[{\"name\": \"arm\"}]", "this is JSON"),
         (b"---\nname: arm\n", "this is YAML"),

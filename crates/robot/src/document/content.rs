@@ -4,16 +4,31 @@ use serde::de::IgnoredAny;
 
 use crate::{Error, ErrorKind, Result};
 
+/// Advice for meshes.
+const MESH: &str = "give the robot's URDF, which names its meshes";
+/// Number of bytes that are inspected to recognise a mesh in text or an archive.
+const HEAD: usize = 4096;
+/// The length of the header, and of a triangle, in a binary STL file.
+const STL: [usize; 2] = [84, 50];
+/// The first words of the lines of an OBJ mesh.
+const OBJ: [&str; 10] = ["v", "vn", "vt", "vp", "f", "o", "g", "s", "mtllib", "usemtl"];
 /// Magic bytes of binary files, their type, and advice.
-const BINARY: [(&[u8], &str, &str); 14] = [
+const BINARY: [(&[u8], &str, &str); 21] = [
     (b"PK\x03\x04", "a ZIP archive", "give the URDF in it"),
     (b"PK\x05\x06", "an empty ZIP archive", "give the URDF"),
     (b"\x1f\x8b", "a gzip archive", "give the URDF in it"),
     (b"BZh", "a bzip2 archive", "give the URDF in it"),
     (b"\xfd7zXZ\0", "an xz archive", "give the URDF in it"),
     (b"7z\xbc\xaf\x27\x1c", "a 7z archive", "give the URDF in it"),
+    (b"\x28\xb5\x2f\xfd", "a zstd archive", "give the URDF in it"),
+    (b"\x04\x22\x4d\x18", "an lz4 archive", "give the URDF in it"),
+    (b"Rar!\x1a", "a RAR archive", "give the URDF in it"),
     (b"PXR-USDC", "a USD scene", "give the robot's URDF"),
     (b"#usda", "a USD scene", "give the robot's URDF"),
+    (b"Kaydara FBX Binary", "an FBX scene", "give the robot's URDF"),
+    (b"ISO-10303-21", "a STEP model", "give the robot's URDF"),
+    (b"ply\n", "a PLY mesh", MESH),
+    (b"ply\r\n", "a PLY mesh", MESH),
     (b"glTF", "a glTF scene", "give the robot's URDF"),
     (b"\x89PNG", "a PNG image", "give the robot's URDF"),
     (b"\xff\xd8\xff", "a JPEG image", "give the robot's URDF"),
@@ -30,14 +45,48 @@ pub fn is_xml(bytes: &[u8]) -> bool {
     bytes.iter().find(|byte| !is_mark(byte)) == Some(&b'<')
 }
 
-/// Refuses archives, images, scenes and other binary files.
+/// Refuses archives, images, meshes, scenes and other binary files.
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] with the file's type, advice, and the allowed formats.
 pub fn refuse_binary(bytes: &[u8]) -> Result<()> {
     match BINARY.iter().find(|(start, ..)| bytes.starts_with(start)) {
+        Some((b"PK\x03\x04", ..)) if is_usdz(bytes) => Err(foreign("a USDZ scene", "give the robot's URDF")),
         Some((_, name, advice)) => Err(foreign(name, advice)),
-        None => Ok(()),
+        None if bytes.get(257..262) == Some(b"ustar") => Err(foreign("a tar archive", "give the URDF in it")),
+        None => mesh_format(bytes).map_or(Ok(()), |name| Err(foreign(name, MESH))),
+    }
+}
+
+/// Whether a ZIP archive begins with a file of a USD scene.
+fn is_usdz(bytes: &[u8]) -> bool {
+    let head = &bytes[..bytes.len().min(HEAD)];
+    [b".usdc", b".usda"].iter().any(|end| head.windows(end.len()).any(|window| window == *end))
+}
+
+/// STL, COLLADA or OBJ, if `bytes` are such a mesh.
+fn mesh_format(bytes: &[u8]) -> Option<&'static str> {
+    let head = String::from_utf8_lossy(&bytes[..bytes.len().min(HEAD)]);
+    let [header, triangle] = STL;
+    let count =
+        bytes.get(header - 4..header).and_then(|count| Some(u32::from_le_bytes(count.try_into().ok()?) as usize));
+    let is_binary_stl = count
+        .is_some_and(|count| count > 0 && count.checked_mul(triangle).map(|size| size + header) == Some(bytes.len()));
+    let is_text_stl = head.starts_with("solid") && head.contains("facet normal");
+    let lines = || head.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
+    let has_vertex = || lines().any(|line| line.starts_with("v ") && line.split_whitespace().count() >= 4);
+    match () {
+        () if is_binary_stl || is_text_stl => Some("an STL mesh"),
+        () if is_xml(bytes) && head.contains("<COLLADA") => Some("a COLLADA mesh"),
+        // The last line may be cut off.
+        () if has_vertex()
+            && lines()
+                .take(TABLE)
+                .all(|line| line.split_whitespace().next().is_some_and(|word| OBJ.contains(&word))) =>
+        {
+            Some("an OBJ mesh")
+        }
+        () => None,
     }
 }
 
@@ -49,7 +98,7 @@ pub fn explained(error: Error, text: &str) -> Error {
 
 fn foreign(name: &str, advice: &str) -> Error {
     let text = format!(
-        "this is {name}; {advice}: descriptions are URDF (XML) or TOML, of a robot, a chain, a DH table or a system of equations"
+        "this is {name}; {advice}: descriptions are URDF, MJCF or SDF (XML), or TOML, of a robot, a chain, a DH table or a system of equations"
     );
     Error::new(ErrorKind::Unsupported, text)
 }

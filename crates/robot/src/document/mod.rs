@@ -32,7 +32,7 @@ pub use groebot_algebra::escape::shown;
 pub use json::{JsonFormat, json_text};
 pub use text::open;
 pub use text::{is_stdin, read_text, read_xml, unix_lines};
-pub use text::{read_bytes, text_of};
+pub use text::{read_bytes, read_description, text_of};
 
 /// The size limit of groebot's readers for [`read_text`]: one megabyte.
 pub const TEXT_LIMIT: u64 = limits::DESCRIPTION_BYTES;

@@ -62,6 +62,25 @@ pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
+/// Same as [`read_bytes`], but for a description: a mesh or an archive beyond the limit is named as such.
+///
+/// # Errors
+/// Those of [`read_bytes`]; [`ErrorKind::Unsupported`] for a file that is too long and begins like an archive, a mesh or
+/// another file that is no description.
+pub fn read_description(path: &Path, limit: u64) -> Result<Vec<u8>> {
+    read_bytes(path, limit).map_err(|error| {
+        if is_stdin(path) || error.kind() != ErrorKind::BadValue {
+            return error;
+        }
+        let Ok(file) = open(path) else { return error };
+        let mut bytes = Vec::new();
+        // A binary STL is recognised by its length.
+        let read = file.take(groebot_algebra::limits::MESH_BYTES).read_to_end(&mut bytes);
+        let named = read.ok().and_then(|_| refuse_binary(&bytes).err());
+        named.map_or(error, |named| named.in_file(path))
+    })
+}
+
 /// Opens a file for reading. Every reader of files uses this function.
 ///
 /// # Errors

@@ -5,10 +5,10 @@ use std::path::Path;
 use super::urdf::URDF_LIMIT;
 use super::{ReadOptions, Robot, xacro};
 use crate::Result;
-use crate::document::{TEXT_LIMIT, decode_xml, explained, is_xml, read_bytes, refuse_binary, text_of};
+use crate::document::{TEXT_LIMIT, decode_xml, explained, is_xml, read_description, refuse_binary, text_of};
 
 /// The ends of names of files in XML.
-const XML_ENDS: [&str; 3] = ["urdf", "xml", "xacro"];
+const XML_ENDS: [&str; 5] = ["urdf", "xml", "xacro", "sdf", "mjcf"];
 
 impl Robot {
     /// The robot that the file at `path` describes, with [`ReadOptions::from_environment`].
@@ -19,17 +19,18 @@ impl Robot {
         Robot::read_with(path, &ReadOptions::from_environment())
     }
 
-    /// The robot that the file at `path` describes: a URDF where the file's name ends in `.urdf`, `.xml` or `.xacro`, or where its text starts with `<`;
-    /// otherwise TOML. A description in [xacro] is expanded. Errors have the file and the line of the description before the expansion.
+    /// The robot that the file at `path` describes: XML where the file's name ends in `.urdf`, `.xml`, `.xacro`, `.sdf` or `.mjcf`, or where its text
+    /// starts with `<`; otherwise TOML. A description in [xacro] is expanded. The root element of other XML gives the format: `<mujoco>` for MJCF, `<sdf>` for
+    /// SDF, otherwise URDF. Errors have the file and the line of the description before the expansion.
     ///
     /// # Errors
-    /// As [`read_bytes`], with a limit of four megabytes for a name that ends in `.urdf`, `.xml` or `.xacro` and of one megabyte for others; as
-    /// [`decode_xml`], [`xacro::expand`] and [`Robot::from_urdf`], or [`Robot::from_toml`]; [`crate::ErrorKind::Unsupported`] for archives, JSON, YAML and
+    /// As [`read_description`], with a limit of four megabytes for these names and of one megabyte for others; as
+    /// [`decode_xml`], [`xacro::expand`] and [`Robot::from_xml`], or [`Robot::from_toml`]; [`crate::ErrorKind::Unsupported`] for archives, JSON, YAML and
     /// tables. All have the file.
     pub fn read_with(path: impl AsRef<Path>, options: &ReadOptions) -> Result<Robot> {
         let path = path.as_ref();
         let named = path.extension().is_some_and(|end| XML_ENDS.iter().any(|xml| end.eq_ignore_ascii_case(xml)));
-        let bytes = read_bytes(path, if named { URDF_LIMIT } else { TEXT_LIMIT })?;
+        let bytes = read_description(path, if named { URDF_LIMIT } else { TEXT_LIMIT })?;
         Robot::from_bytes(bytes, named, path, options).map_err(|error| error.in_file(path))
     }
 
@@ -40,7 +41,7 @@ impl Robot {
             if xacro::is_xacro(path, &xml.text) {
                 return Ok(xacro::expand_text(&xml.text, path, options)?.robot()?.with_notes(xml.notes));
             }
-            let robot = Robot::from_urdf(&xml.text).map_err(|error| explained(error, &xml.text))?;
+            let robot = Robot::from_xml(&xml.text, Some(path)).map_err(|error| explained(error, &xml.text))?;
             return Ok(robot.with_notes(xml.notes));
         }
         let text = text_of(bytes)?;

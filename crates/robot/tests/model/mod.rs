@@ -3,9 +3,11 @@
 mod changed;
 mod mesh;
 mod mjcf;
+mod mjcf_read;
 mod read;
 mod robot;
 mod round_trip;
+mod sdf;
 mod toml;
 mod urdf;
 mod urdf_angles;

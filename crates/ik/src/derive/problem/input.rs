@@ -9,16 +9,18 @@ use crate::derive::problem::ends::{Ends, TASK_NAME, proposed};
 use crate::derive::problem::formulate::formulated;
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::document::{
-    Document, TEXT_LIMIT, decode_xml, explained, is_stdin, is_xml, read_bytes, refuse_binary, text_of,
+    Document, TEXT_LIMIT, decode_xml, explained, is_stdin, is_xml, read_description, refuse_binary, text_of,
 };
 use groebot_robot::kinematics::ideal::Report;
 use groebot_robot::kinematics::{Chain, DhTable, LinkPath, TipChoice};
 use groebot_robot::model::urdf::URDF_LIMIT;
-use groebot_robot::model::{ReadOptions, Robot, xacro};
+use groebot_robot::model::{ReadOptions, Robot, XmlFormat, xacro};
 use groebot_robot::robots::{self, Listed};
 
 /// The allowed names of the input in a mechanism's folder: a chain (or a DH table), a system, a URDF robot, coupled chains, a TOML robot.
 pub const INPUT_NAMES: [&str; 5] = ["0_chain.toml", "0_system.toml", "0_robot.urdf", COUPLED_NAME, "0_robot.toml"];
+/// The ends of names of files in XML.
+const XML_ENDS: [&str; 5] = ["urdf", "xml", "xacro", "sdf", "mjcf"];
 /// The name of the description of chains that share actuators, in a mechanism's folder.
 pub const COUPLED_NAME: &str = "0_coupled.toml";
 
@@ -83,7 +85,7 @@ impl InputFile {
     /// the name of a robot in [`robots::LISTED`].
     ///
     /// Meshes and files of coupled chains that standard input names are searched from the current folder. The content decides the type:
-    /// * a robot: a file `.urdf`, `.xml` or `.xacro`, text that starts with `<`, or TOML with a `[[link]]`;
+    /// * a robot: a file `.urdf`, `.xml`, `.xacro`, `.sdf` or `.mjcf`, text that starts with `<` (URDF, xacro, MJCF or SDF), or TOML with a `[[link]]`;
     /// * coupled chains: TOML with a `[[chain]]`;
     /// * a DH table: TOML with a `[dh]`;
     /// * a chain: TOML with a `[tip]` or `[task]`;
@@ -91,7 +93,8 @@ impl InputFile {
     ///
     /// # Errors
     /// [`ErrorKind::Io`] for a file that cannot be read; [`ErrorKind::UnknownName`] for a word that is neither a file nor a robot;
-    /// [`ErrorKind::BadValue`] for a folder without exactly one input. [`ErrorKind::Unsupported`] for archives, JSON, YAML, tables and other files that are not descriptions. As [`decode_xml`], [`Robot::from_urdf`], [`CoupledChains::from_toml`],
+    /// [`ErrorKind::BadValue`] for a folder without exactly one input. [`ErrorKind::Unsupported`] for archives, JSON, YAML, tables and other files that are
+    /// not descriptions. As [`decode_xml`], [`xacro::expand`], [`Robot::from_xml`], [`CoupledChains::from_toml`],
     /// [`Chain::from_dh_toml`], [`Chain::from_toml`] and [`System::from_toml`], with file and line.
     pub fn read(path: &Path) -> Result<InputFile> {
         InputFile::read_with(path, &ReadOptions::from_environment())
@@ -107,10 +110,8 @@ impl InputFile {
         }
         let file = if path.is_dir() { input_in(path)? } else { path.to_owned() };
         let at_file = |error: Error| error.in_file(&file);
-        let ends_in_xml = file
-            .extension()
-            .is_some_and(|end| ["urdf", "xml", "xacro"].iter().any(|xml| end.eq_ignore_ascii_case(xml)));
-        let bytes = read_bytes(&file, if ends_in_xml || is_stdin(&file) { URDF_LIMIT } else { TEXT_LIMIT })?;
+        let ends_in_xml = file.extension().is_some_and(|end| XML_ENDS.iter().any(|xml| end.eq_ignore_ascii_case(xml)));
+        let bytes = read_description(&file, if ends_in_xml || is_stdin(&file) { URDF_LIMIT } else { TEXT_LIMIT })?;
         refuse_binary(&bytes).map_err(at_file)?;
         let is_xml = ends_in_xml || is_xml(&bytes);
         let (text, notes) = if is_xml {
@@ -119,16 +120,12 @@ impl InputFile {
             text_of(bytes).map(|text| (text, Vec::new()))
         }
         .map_err(at_file)?;
-        let expanded = (is_xml && xacro::is_xacro(&file, &text)).then(|| xacro::expand_text(&text, &file, options));
-        let expanded = expanded.transpose().map_err(at_file)?;
-        let robot = || match &expanded {
-            Some(expanded) => expanded.robot(),
-            None => Robot::from_urdf(&text),
+        let robot = || match xacro::is_xacro(&file, &text) {
+            true => from_xacro(&text, &file, options, notes),
+            false => from_xml(text.clone(), &file, notes),
         };
-        let robot = || robot().map(|robot| Description::Robot(robot.with_notes(notes)));
-        let described = if is_xml { robot() } else { from_toml(&text, &file) };
-        let description = described.map_err(|error| at_file(explained(error, &text)))?;
-        let text = expanded.map_or(text, |expanded| expanded.text);
+        let described = if is_xml { robot() } else { from_toml(&text, &file).map(|read| (read, text.clone())) };
+        let (description, text) = described.map_err(|error| at_file(explained(error, &text)))?;
         let ends = read_ends(&file)?;
         Ok(InputFile { path: file, name: description.file_name(is_xml), text, description, ends })
     }
@@ -206,6 +203,36 @@ fn read_ends(file: &Path) -> Result<Ends> {
     let is_named = file.file_name().is_some_and(|name| INPUT_NAMES.iter().any(|known| name == *known));
     let task_file = file.with_file_name(TASK_NAME);
     if is_named && task_file.is_file() { Ends::read(&task_file) } else { Ok(Ends::default()) }
+}
+
+/// Expands the xacro `text` of `file`, and reads it as a robot; with the expansion.
+fn from_xacro(text: &str, file: &Path, options: &ReadOptions, notes: Vec<String>) -> Result<(Description, String)> {
+    let expanded = xacro::expand_text(text, file, options)?;
+    let robot = expanded.robot()?.with_notes(notes);
+    Ok((Description::Robot(robot), expanded.text))
+}
+
+/// Reads the robot in the XML `text` of `file`, with its text in a mechanism's folder. That is URDF: an MJCF or SDF is
+/// written as URDF and read again, because it may include other files.
+fn from_xml(text: String, file: &Path, notes: Vec<String>) -> Result<(Description, String)> {
+    let robot = Robot::from_xml(&text, Some(file))?.with_notes(notes);
+    if XmlFormat::of(&text) == XmlFormat::Urdf {
+        return Ok((Description::Robot(robot), text));
+    }
+    let urdf = robot.to_urdf();
+    let again = Robot::from_urdf(&urdf).map_err(|error| error.with_context("as URDF"))?;
+    let mut parts = again.parts().clone();
+    // Messages are about the file itself.
+    parts.notes.clone_from(&robot.parts().notes);
+    parts.faults.clear();
+    for (link, own) in parts.links.iter_mut().zip(robot.links()) {
+        (link.line, link.notes) = (own.line, own.notes.clone());
+    }
+    for (joint, own) in parts.joints.iter_mut().zip(robot.joints()) {
+        (joint.line, joint.notes) = (own.line, own.notes.clone());
+    }
+    let again = Robot::with_faults(parts)?;
+    Ok((Description::Robot(again), urdf))
 }
 
 /// Reads the description in the text of `file`.

@@ -7,7 +7,7 @@ mod link;
 mod transmission;
 mod write;
 mod xacro;
-mod xml;
+pub(super) mod xml;
 
 use std::collections::HashMap;
 

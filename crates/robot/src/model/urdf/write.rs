@@ -2,12 +2,8 @@
 
 use std::fmt::{self, Write};
 
-use num_traits::ToPrimitive;
-
-use crate::model::attributes::{escaped, floats};
+use crate::model::attributes::{decimal, decimals, escaped, floats, frame_numbers};
 use crate::model::{Actuator, Joint, Link, Mass, Mimic, Origin, Robot, Shape, Solid};
-use crate::spatial::exact::ExactVector;
-use groebot_algebra::number::BigRational;
 
 impl Robot {
     /// Writes the robot as URDF. Reading the result gives an equal robot: decimal numbers keep all their digits, and
@@ -125,17 +121,7 @@ fn write_actuator(out: &mut String, actuator: &Actuator) -> fmt::Result {
 
 /// An `<origin>`; `None` for the identity.
 fn origin(origin: &Origin) -> Option<String> {
-    let rpy = origin.rpy.as_ref().map_or_else(|| floats(&origin.angles()), decimals);
-    let xyz = decimals(&origin.placement.origin);
+    let [xyz, rpy] = frame_numbers(origin);
     let is_outer = *origin == Origin::identity() || (xyz == "0 0 0" && rpy == "0 0 0" && origin.rpy.is_none());
     (!is_outer).then(|| format!("<origin xyz=\"{xyz}\" rpy=\"{rpy}\"/>"))
-}
-
-fn decimals(numbers: &ExactVector) -> String {
-    numbers.each_ref().map(decimal).join(" ")
-}
-
-/// All digits of a decimal number; the nearest double of any other number.
-fn decimal(number: &BigRational) -> String {
-    groebot_algebra::number::decimal_text(number).unwrap_or_else(|| number.to_f64().unwrap_or(f64::NAN).to_string())
 }

@@ -1,5 +1,9 @@
 //! The outer levels of an XML text as elements with line numbers. Deeper levels are only checked for well-formedness.
 
+use std::ops::RangeInclusive;
+use std::path::Path;
+use std::sync::Arc;
+
 use num_traits::ToPrimitive;
 use quick_xml::events::attributes::AttrError;
 use quick_xml::events::{BytesStart, Event};
@@ -22,10 +26,12 @@ const DEEPEST: usize = limits::XML_DEPTH;
 pub const EXPAND: &str = "a macro language for URDF; give its file, which is expanded when it is read";
 
 /// An element with its attributes and children.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Element {
     pub name: String,
     pub line: usize,
+    /// The included file that has the element; `None` for the description's own file.
+    pub file: Option<Arc<Path>>,
     attributes: Vec<(String, String)>,
     /// The text of the element, without blanks at both ends.
     pub text: String,
@@ -33,15 +39,27 @@ pub struct Element {
 }
 
 impl Element {
-    /// Parses `text` and returns its root element.
+    /// Parses `text` and returns its root element with [`STORED_LEVELS`] levels.
     ///
     /// # Errors
     /// [`ErrorKind::Syntax`] with its line for text that is not one well-formed XML element or is nested too deeply.
     pub fn parse(text: &str) -> Result<Element> {
+        Element::parse_levels(text, STORED_LEVELS)
+    }
+
+    /// Same as [`Element::parse`], but with all levels.
+    ///
+    /// # Errors
+    /// Those of [`Element::parse`].
+    pub fn parse_whole(text: &str) -> Result<Element> {
+        Element::parse_levels(text, DEEPEST)
+    }
+
+    fn parse_levels(text: &str, stored: usize) -> Result<Element> {
         let newlines: Vec<usize> = text.match_indices('\n').map(|(at, _)| at).collect();
         let line_of = |offset: usize| 1 + newlines.partition_point(|&newline| newline < offset);
         let mut reader = Reader::from_str(text);
-        let mut builder = Builder { decoder: reader.decoder(), open: Vec::new(), depth: 0, root: None };
+        let mut builder = Builder { decoder: reader.decoder(), stored, open: Vec::new(), depth: 0, root: None };
         loop {
             let line = line_of(reader.buffer_position() as usize);
             let event = reader.read_event().map_err(|error| {
@@ -63,6 +81,23 @@ impl Element {
     /// All attributes, each with its name.
     pub fn attributes(&self) -> impl Iterator<Item = (&str, &str)> {
         self.attributes.iter().map(|(name, value)| (name.as_str(), value.as_str()))
+    }
+
+    /// Sets the text of an attribute.
+    pub fn set(&mut self, name: &str, value: &str) {
+        self.attributes.retain(|(key, _)| key != name);
+        self.attributes.push((name.to_owned(), value.to_owned()));
+    }
+
+    /// Records the included file in this element and those in it, for error messages.
+    pub fn mark(&mut self, file: &Arc<Path>) {
+        self.file = Some(Arc::clone(file));
+        self.children.iter_mut().for_each(|child| child.mark(file));
+    }
+
+    /// The line in the description's own file; `None` for an element of an included file.
+    pub fn own_line(&self) -> Option<usize> {
+        self.file.is_none().then_some(self.line)
     }
 
     /// The text of a required attribute.
@@ -91,19 +126,31 @@ impl Element {
     /// # Errors
     /// [`ErrorKind::BadValue`] for a wrong number of entries, nan, infinities, and text that is not a decimal number.
     pub fn numbers<const N: usize>(&self, name: &str) -> Result<Option<[BigRational; N]>> {
+        let Some(numbers) = self.list(name, N..=N)? else { return Ok(None) };
+        Ok(numbers.try_into().ok())
+    }
+
+    /// Same as [`Element::numbers`], but with a range of allowed counts.
+    ///
+    /// # Errors
+    /// Those of [`Element::numbers`].
+    pub fn list(&self, name: &str, allowed: RangeInclusive<usize>) -> Result<Option<Vec<BigRational>>> {
         let Some(text) = self.attribute(name) else { return Ok(None) };
         let bad = |what: String| {
-            let wanted = if N == 1 { "one number".to_owned() } else { format!("{N} numbers with blanks between them") };
+            let wanted = match (*allowed.start(), *allowed.end()) {
+                (1, 1) => "one number".to_owned(),
+                (least, most) if least == most => format!("{most} numbers with blanks between them"),
+                (least, most) => format!("{least} to {most} numbers with blanks between them"),
+            };
             self.error(ErrorKind::BadValue, &format!("has `{name}` = \"{}\": {what}; give {wanted}", shown(text)))
         };
         if text.contains("$(") {
             let text = format!("has `{name}` = \"{}\": `$(...)` is xacro, {EXPAND}", shown(text));
             return Err(self.error(ErrorKind::Unsupported, &text));
         }
-        let words: Vec<&str> = text.split_whitespace().collect();
-        let numbers: Vec<BigRational> = words.iter().map(|word| decimal(word).map_err(bad)).collect::<Result<_>>()?;
-        let count = numbers.len();
-        numbers.try_into().map(Some).map_err(|_| bad(format!("{count} found")))
+        let words = text.split_whitespace();
+        let numbers: Vec<BigRational> = words.map(|word| decimal(word).map_err(bad)).collect::<Result<_>>()?;
+        if allowed.contains(&numbers.len()) { Ok(Some(numbers)) } else { Err(bad(format!("{} found", numbers.len()))) }
     }
 
     /// The exact number of an attribute.
@@ -137,12 +184,13 @@ impl Element {
 
     /// An error about this element, at its line.
     pub fn error(&self, kind: ErrorKind, message: &str) -> Error {
-        Error::new(kind, format!("<{}> {message}", shown(&self.name))).at_line(self.line)
+        let error = Error::new(kind, format!("<{}> {message}", shown(&self.name))).at_line(self.line);
+        if let Some(file) = &self.file { error.in_file(file) } else { error }
     }
 }
 
 /// Parses a decimal number. Fractions are refused, because XML parsers do not support them.
-fn decimal(word: &str) -> std::result::Result<BigRational, String> {
+pub fn decimal(word: &str) -> std::result::Result<BigRational, String> {
     let is_plain = word.bytes().all(|b| b.is_ascii_digit() || b"+-.eE".contains(&b)) && word.len() <= 400;
     let value = if is_plain { parse_rational(word).ok() } else { None };
     value.ok_or_else(|| match word.parse::<f64>() {
@@ -163,6 +211,8 @@ fn shown_long(message: &str) -> String {
 /// Builds elements while they open and close.
 struct Builder {
     decoder: Decoder,
+    /// The number of stored levels.
+    stored: usize,
     /// The open elements that are stored.
     open: Vec<Element>,
     depth: usize,
@@ -182,7 +232,7 @@ impl Builder {
                 self.end();
                 Ok(())
             }
-            Event::Text(text) if self.depth > 0 && self.depth <= STORED_LEVELS && text.len() <= MOST_TEXT => {
+            Event::Text(text) if self.depth > 0 && self.depth <= self.stored && text.len() <= MOST_TEXT => {
                 if let (Some(open), Ok(text)) = (self.open.last_mut(), text.decode()) {
                     open.text += text.trim();
                 }
@@ -204,15 +254,15 @@ impl Builder {
         }
         self.depth += 1;
         let attributes = attributes(start, self.decoder)?;
-        if self.depth <= STORED_LEVELS {
+        if self.depth <= self.stored {
             let name = String::from_utf8_lossy(start.name().as_ref()).into_owned();
-            self.open.push(Element { name, line, attributes, text: String::new(), children: Vec::new() });
+            self.open.push(Element { name, line, file: None, attributes, text: String::new(), children: Vec::new() });
         }
         Ok(())
     }
 
     fn end(&mut self) {
-        let is_kept = self.depth <= STORED_LEVELS;
+        let is_kept = self.depth <= self.stored;
         self.depth = self.depth.saturating_sub(1);
         if let Some(element) = is_kept.then(|| self.open.pop()).flatten() {
             match self.open.last_mut() {

@@ -8,11 +8,11 @@ use std::path::Path;
 
 use nalgebra::Matrix3;
 
-use super::attributes::{escaped, floats};
-use super::mesh::is_text;
-use super::{Joint, JointType, Link, Meshes, Robot, Shape, Solid, finite};
 use crate::Result;
 use crate::document::shown;
+use crate::model::attributes::{escaped, floats};
+use crate::model::mesh::is_text;
+use crate::model::{Joint, JointType, Link, Meshes, Robot, Shape, Solid, finite};
 use crate::spatial::Pose;
 
 /// Maximum depth with increasing indentation.

@@ -1,0 +1,75 @@
+//! Actuators of an MJCF: the largest torques and forces of joints.
+
+use std::collections::BTreeMap;
+
+use super::body::{Reader, magnitude};
+use super::compiler::double;
+use super::defaults::{MAIN, Styled};
+use super::joint::is_limited;
+use crate::Result;
+use crate::model::urdf::xml::Element;
+
+/// The elements of `<actuator>` that act on a joint.
+const KINDS: [&str; 8] = ["general", "motor", "position", "velocity", "intvelocity", "damper", "cylinder", "dcmotor"];
+
+impl<'e> Reader<'_, 'e> {
+    /// Reads `<actuator>`: the effort of a joint without `actuatorfrcrange` is the sum of the limits of its actuators.
+    /// Gains have no place in a robot; actuators of tendons and sites are noted.
+    ///
+    /// # Errors
+    /// [`crate::ErrorKind::BadValue`] for wrong numbers, [`crate::ErrorKind::UnknownName`] for an unknown class.
+    pub fn read_actuators(&mut self) -> Result<()> {
+        let mut efforts: BTreeMap<&'e str, Option<f64>> = BTreeMap::new();
+        let mut others = 0_usize;
+        let sections = self.root.children.iter().filter(|child| child.name == "actuator");
+        for element in sections.flat_map(|section| &section.children) {
+            let joint = element.attribute("joint").or(element.attribute("jointinparent"));
+            let Some(joint) = joint.filter(|_| KINDS.contains(&element.name.as_str())) else {
+                others += 1;
+                continue;
+            };
+            let effort = self.effort(element)?;
+            let sum = efforts.entry(joint).or_insert(Some(0.0));
+            *sum = sum.zip(effort).map(|(sum, effort)| sum + effort);
+        }
+        for joint in self.parts.joints.iter_mut().filter(|joint| joint.effort.is_none()) {
+            joint.effort = efforts.get(joint.name.as_str()).copied().flatten().filter(|effort| effort.is_finite());
+        }
+        if others > 0 {
+            self.note(format!("{others} actuators of tendons, sites or bodies are ignored"));
+        }
+        Ok(())
+    }
+
+    /// The largest torque or force of an actuator at its joint; `None` without a limit.
+    fn effort(&self, element: &'e Element) -> Result<Option<f64>> {
+        let styled = self.classes.styled(element, MAIN, &[element.name.as_str(), "general"])?;
+        let gear = styled.list("gear", 1..=6)?.and_then(|gear| gear.first().map(double)).unwrap_or(1.0).abs();
+        if let Some(force) = self.limit(&styled, "forcerange", "forcelimited")? {
+            return Ok(Some(force * gear));
+        }
+        // The force of a motor is its control times its gain.
+        let gain = match element.name.as_str() {
+            "motor" => Some(1.0),
+            "general" if is_plain(&styled) => {
+                Some(styled.list("gainprm", 1..=10)?.and_then(|gain| gain.first().map(double)).unwrap_or(1.0).abs())
+            }
+            _ => None,
+        };
+        let Some(gain) = gain else { return Ok(None) };
+        Ok(self.limit(&styled, "ctrlrange", "ctrllimited")?.map(|control| control * gain * gear))
+    }
+
+    /// The magnitude of a range, if it limits.
+    fn limit(&self, styled: &Styled<'e>, range: &str, switch: &str) -> Result<Option<f64>> {
+        let Some(given) = styled.numbers::<2>(range)? else { return Ok(None) };
+        let bounds = [double(&given[0]), double(&given[1])];
+        Ok(is_limited(styled, switch, bounds, self.compiler.auto_limits)?.then(|| magnitude(&given)))
+    }
+}
+
+/// Whether a general actuator has a fixed gain and no bias.
+fn is_plain(styled: &Styled<'_>) -> bool {
+    styled.attribute("biastype").is_none_or(|word| word == "none")
+        && styled.attribute("gaintype").is_none_or(|word| word == "fixed")
+}
