@@ -90,7 +90,10 @@ def check(entry):
                 break
         except Exception as error:
             print(f"  {entry['name']}: {name}: {error!r}"[:300], flush=True)
-    if not entry["check"]:
+    if not any(result[0] < TOLERANCE for result in results) and "from" in entry:
+        source = f"{entry['from']} {entry['base']} {entry['tip']}"
+        results.append((*difference(ours, source), "source"))
+    elif not results:
         ours.poses(ours.draw()[:1])
     return results
 
@@ -103,11 +106,14 @@ def line(entry, results):
             keep[end] = keep[end].removeprefix(entry.get("prefix", ""))
     keep["task"] = entry.get("task", "pose")
     out = ", ".join(f'{key} = "{value}"' for key, value in keep.items())
-    passed = [result for result in results if result[0] < TOLERANCE]
+    own = [result for result in results if result[2] == "source"]
+    passed = [result for result in results if result[0] < TOLERANCE and result not in own]
     if passed:
         greatest, how, name = passed[-1]
         out += f', checked = "{descriptions.version(name)}", difference = {greatest:.1e}'
         out += ", fitted = true" if how else ""
+    elif own:
+        out += f", converted = {own[0][0]:.1e}"
     return f" {{{out}}},"
 
 
@@ -134,7 +140,7 @@ def main(arguments):
             print(f"{entry['name']}: FAILED {error!r}"[:400], flush=True)
             continue
         lines.append(line(entry, results))
-        good = any(result[0] < TOLERANCE for result in results)
+        good = any(result[0] < TOLERANCE and result[2] != "source" for result in results)
         counts[0 if good else 1] += 1
         said = "; ".join(f"{value:.1e} {how} {name.split('/')[-1]}" for value, how, name in results)
         print(f"{entry['name']:24} {'checked' if good else 'UNCHECKED'} {said}", flush=True)

@@ -198,6 +198,8 @@ def text(entry):
     """The robot in TOML."""
     root = ElementTree.fromstring(descriptions.urdf(entry["from"]).encode())
     joints = path(root, entry["base"], entry["tip"])
+    if any(joint.get("moved") for joint in joints):
+        raise ValueError("a joint is not at the origin of its body")
     names = [entry["base"]] + [joint.find("child").get("link") for joint in joints]
     links = {link.get("name"): link for link in root.findall("link")}
     links = {name: links.get(name, ElementTree.Element("link", name=name)) for name in names}

@@ -1,7 +1,8 @@
 """Bodies, joints, sites and inertias of an MJCF as the elements of a URDF, for import.py.
 
 Positions are the decimals of the file. Rotations, which MJCF has as quaternions or Euler angles, become roll, pitch and yaw, to 15 digits. Only what
-the listed files use is read: default classes, `childclass`, `euler`, `quat`, `range`, `actuatorfrcrange`, `inertial`.
+the listed files use is read: default classes, `childclass`, `euler`, `quat`, `axisangle`, `range`, `actuatorfrcrange`, `inertial`. A joint that is
+not at its body's origin is marked `moved`.
 """
 
 import math
@@ -16,10 +17,7 @@ from pinocchio.rpy import matrixToRpy, rpyToMatrix
 class Reader:
     def __init__(self, path):
         self.root = ElementTree.parse(path).getroot()
-        for include in list(self.root.iter("include")):
-            part = ElementTree.parse(Path(path).parent / include.get("file")).getroot()
-            for element in part:
-                self.root.append(element)
+        self._include(self.root, Path(path).parent)
         compiler = {}
         for element in self.root.findall("compiler"):
             compiler.update(element.attrib)
@@ -30,6 +28,17 @@ class Reader:
         for element in self.root.findall("default"):
             self._default(element, {})
         self.robot = ElementTree.Element("robot", name=self.root.get("model", "robot"))
+
+    def _include(self, element, folder):
+        """Puts the content of included files in the place of their elements."""
+        for index, child in reversed(list(enumerate(element))):
+            if child.tag == "include":
+                part = ElementTree.parse(folder / child.get("file")).getroot()
+                element.remove(child)
+                for offset, inner in enumerate(part):
+                    element.insert(index + offset, inner)
+        for child in element:
+            self._include(child, folder)
 
     def _default(self, element, above):
         own = {kind: {**above.get(kind, {}), **(element.find(kind).attrib if element.find(kind) is not None else {})} for kind in ("joint",)}
@@ -55,7 +64,11 @@ class Reader:
             scale = math.pi / 180 if self.degrees else 1.0
             a, b, c = (scale * float(word) for word in element.get("euler").split())
             return rpyToMatrix(a, 0, 0) @ rpyToMatrix(0, b, 0) @ rpyToMatrix(0, 0, c)
-        if element.get("axisangle") or element.get("xyaxes") or element.get("zaxis"):
+        if element.get("axisangle"):
+            *axis, angle = map(float, element.get("axisangle").split())
+            scale = math.pi / 180 if self.degrees else 1.0
+            return pinocchio.exp3(scale * angle * numpy.array(axis) / numpy.linalg.norm(axis))
+        if element.get("xyaxes") or element.get("zaxis"):
             raise ValueError(f"{element.get('name')}: orientation")
         return numpy.eye(3)
 
@@ -67,16 +80,19 @@ class Reader:
         name, childclass = body.get("name"), body.get("childclass") or childclass
         link = ElementTree.SubElement(self.robot, "link", name=name)
         self._inertial(body, link)
-        joints = body.findall("joint")
-        moving = [joint for joint in joints if joint.get("type", "hinge") in ("hinge", "slide")]
-        if len(moving) > 1:
-            raise ValueError(f"{name}: {len(moving)} joints")
-        joint = ElementTree.SubElement(self.robot, "joint", name=moving[0].get("name") if moving else f"{name}_fixed", type="fixed")
-        ElementTree.SubElement(joint, "parent", link=parent)
-        ElementTree.SubElement(joint, "child", link=name)
-        joint.append(self._origin(body))
-        if moving:
-            self._moving(joint, moving[0], childclass)
+        moving = [joint for joint in body.findall("joint") if joint.get("type", "hinge") in ("hinge", "slide")]
+        # Joints of one body follow each other, with a link between two of them.
+        ends = [f"{name}_{i}" for i in range(1, len(moving))] + [name]
+        for end in ends[:-1]:
+            ElementTree.SubElement(self.robot, "link", name=end)
+        for i, end in enumerate(ends):
+            joint = ElementTree.SubElement(self.robot, "joint", name=moving[i].get("name") if moving else f"{name}_fixed", type="fixed")
+            ElementTree.SubElement(joint, "parent", link=ends[i - 1] if i else parent)
+            ElementTree.SubElement(joint, "child", link=end)
+            if i == 0:
+                joint.append(self._origin(body))
+            if moving:
+                self._moving(joint, moving[i], childclass)
         for site in body.findall("site"):
             if site.get("name"):
                 ElementTree.SubElement(self.robot, "link", name=site.get("name"))
@@ -90,7 +106,7 @@ class Reader:
     def _moving(self, out, joint, childclass):
         own = {**self.defaults[joint.get("class") or childclass].get("joint", {}), **joint.attrib}
         if any(float(word) for word in own.get("pos", "0 0 0").split()):
-            raise ValueError(f"{own.get('name')}: pos")
+            out.set("moved", own["pos"])
         slides = own.get("type") == "slide"
         out.set("type", "prismatic" if slides else "revolute")
         ElementTree.SubElement(out, "axis", xyz=own.get("axis", "0 0 1"))

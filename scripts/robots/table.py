@@ -25,7 +25,8 @@ This page is written by `scripts/robots/run --table` from [index.toml](../crates
 | checked by | the package whose other description of the robot has the same forward kinematics |
 | difference | the greatest difference of any entry of the pose (metres, entries of the rotation) from Pinocchio's, at 100 joint vectors drawn uniformly within the limits |
 
-*fitted*: the other description has other frames of base and tip, other zero positions or other senses of joints. These are fitted before the
+*source only*: no other description was found; the comparison with the description that the numbers are from tests the conversion only.
+*unchecked*: written by hand from the source, without another description. *fitted*: the other description has other frames of base and tip, other zero positions or other senses of joints. These are fitted before the
 comparison; the geometry between the joints is compared. Two packages may have copied one description of the maker: the check then shows that the numbers
 here are those, not that they are right.
 """
@@ -36,8 +37,9 @@ def row(entry):
     joints = [joint for joint in chain(data, entry) if joint["type"] != "fixed"]
     masses = {link["name"] for link in data.get("link", []) if "mass" in link}
     has_masses = bool(masses) and all(joint["child"] in masses for joint in joints)
-    checked = entry.get("checked", "unchecked")
-    difference = f"{entry['difference']:.0e}" + (", fitted" if entry.get("fitted") else "") if "checked" in entry else ""
+    checked = entry.get("checked", "source only" if "converted" in entry else "unchecked")
+    figure = entry.get("difference", entry.get("converted"))
+    difference = "" if figure is None else f"{figure:.0e}" + (", fitted" if entry.get("fitted") else "")
     cells = [f"`{entry['name']}`", entry["model"], entry["kind"], str(len(joints)), "yes" if has_masses else "", data["source"], checked, difference]
     return "| " + " | ".join(cells) + " |"
 
