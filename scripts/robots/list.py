@@ -26,7 +26,9 @@ pub const LISTED: &[Listed] = &[
 
 def entries():
     """The robots with the texts of their sources, in order."""
-    index = [robot for name in ["index.toml", "index_own.toml"] for robot in tomllib.loads((ROBOTS / name).read_text())["robot"]]
+    index, own = (tomllib.loads((ROBOTS / name).read_text())["robot"] for name in ["index.toml", "index_own.toml"])
+    names = {robot["name"] for robot in index}
+    index += [robot for robot in own if robot["name"] not in names]
     for robot in index:
         robot["file"] = robot.get("file", f"named/{robot['name']}.toml")
         data = tomllib.loads((ROBOTS / robot["file"]).read_text())
