@@ -27,8 +27,10 @@ pub const LISTED: &[Listed] = &[
 def entries():
     """The robots with the texts of their sources, in order."""
     index, own = (tomllib.loads((ROBOTS / name).read_text())["robot"] for name in ["index.toml", "index_own.toml"])
+    own = {robot["name"]: robot for robot in own}
+    index = [robot for robot in index if robot["name"] not in own or "checked" in robot]
     names = {robot["name"] for robot in index}
-    index += [robot for robot in own if robot["name"] not in names]
+    index += [robot for name, robot in own.items() if name not in names]
     for robot in index:
         robot["file"] = robot.get("file", f"named/{robot['name']}.toml")
         data = tomllib.loads((ROBOTS / robot["file"]).read_text())
