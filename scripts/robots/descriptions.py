@@ -129,6 +129,8 @@ def _model(name):
     for element in root.iter("joint"):
         if element.find("limit") is None and element.get("type") == "revolute":
             element.set("type", "continuous")
+        for limit in element.findall("limit"):
+            limit.attrib = {"effort": "0", "velocity": "0"} | limit.attrib
         for tag in ("mimic", "safety_controller", "calibration"):
             for child in element.findall(tag):
                 element.remove(child)
