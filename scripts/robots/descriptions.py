@@ -8,8 +8,6 @@ import ast
 import math
 import os
 import re
-import subprocess
-import sys
 import tempfile
 import types
 from dataclasses import dataclass
@@ -129,6 +127,8 @@ def _model(name):
     for element in root.iter("joint"):
         if element.find("limit") is None and element.get("type") == "revolute":
             element.set("type", "continuous")
+        for limit in element.findall("limit"):
+            limit.attrib = {"effort": "0", "velocity": "0"} | limit.attrib
         for tag in ("mimic", "safety_controller", "calibration"):
             for child in element.findall(tag):
                 element.remove(child)
@@ -217,8 +217,6 @@ class Link:
 
 def _table(path, name):
     """Placements, axes, kinds and tool of the table in the class `name` of a Python file."""
-    import linecache
-
     tree = ast.parse(path.read_text())
     tree.body = [s for s in tree.body if isinstance(s, ast.ClassDef | ast.Assign) and "__all__" not in ast.dump(s)]
     for node in ast.walk(tree):
@@ -228,13 +226,15 @@ def _table(path, name):
             for argument in node.args.args:
                 argument.annotation = None
     make = lambda kind, modified: lambda *a, **k: Link(kind, modified, **dict(zip(("d", "a", "alpha", "offset"), a)), **k)
+    identity = lambda *a, **k: numpy.eye(4)
     toolbox = types.SimpleNamespace(
         RevoluteDH=make("R", False), PrismaticDH=make("P", False), RevoluteMDH=make("R", True), PrismaticMDH=make("P", True),
         DHLink=make("R", False), DHRobot=_Recorder, Robot=_Recorder,
     )
     scope = {
         **vars(toolbox), "rtb": toolbox, "np": numpy, "numpy": numpy, "pi": math.pi, "math": math, "os": os, "UTSMeshRobot": _Recorder,
-        "DHRobot3D": _Recorder, "spb": _Recorder(), "transl": lambda *a, **k: numpy.eye(4), "trotx": lambda *a, **k: numpy.eye(4), "SE3": lambda *a, **k: numpy.eye(4), "cos": math.cos, "sin": math.sin, "radians": math.radians,
+        "DHRobot3D": _Recorder, "spb": _Recorder(), "transl": identity, "trotx": identity, "SE3": identity, "cos": math.cos,
+        "sin": math.sin, "radians": math.radians,
         "__file__": str(path), "__name__": "table", "zeros": numpy.zeros, "sqrt": math.sqrt, "MeshDHRobot": _Recorder,
     }
     _Recorder.links = None

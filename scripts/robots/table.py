@@ -13,9 +13,22 @@ PAGE = ROOT / "docs" / "named_robots.md"
 
 HEAD = """# Robots by name
 
-Use these robots by their names, without a file.
+A name of this page works wherever a file does:
 
-This page is written by `scripts/robots/run --table` from [index.toml](../crates/robot/src/robots/index.toml).
+    groebot robots kuka                                  # lists names
+    groebot info franka_panda
+    groebot solve ur10e --target 0.5,0.2,0.4,0,1,0,0     # position [m], quaternion x, y, z, w
+    groebot derive ur10e                                 # the solver with its proof, C and Rust, in the folder ur10e
+
+In Python `groebot.Solver.named("ur10e")`, in Rust `groebot::robots::by_name("ur10e")`. A file or folder of the same name comes first.
+
+`solve`, `codegen`, `view`, `reach` and `explain` use a solver that is derived at its first use, in seconds, and stored in the user's cache folder:
+`GROEBOT_CACHE`, else `groebot/solvers` in `XDG_CACHE_HOME` or `~/.cache` (`~/Library/Caches` on macOS, `LOCALAPPDATA` on Windows). The name of the stored
+folder contains the version of groebot and a hash of the description. Each stored file has a hash; a damaged folder is derived again. `--no-cache` derives
+without it.
+
+Base and tip are frames of the source. This page is written by `scripts/robots/run --table` from
+[index.toml](../crates/robot/src/robots/index.toml). `groebot robots` also lists the humanoids of groebot's own walks, their limbs, and three arms of textbooks.
 
 | column | meaning |
 | --- | --- |

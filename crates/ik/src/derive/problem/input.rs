@@ -139,9 +139,8 @@ impl InputFile {
         let description =
             from_toml(listed.text(), &path).map_err(|error| explained(error, listed.text()).in_file(&path))?;
         let [base, tip] = listed.ends().map_or([None, None], |ends| ends.map(|link| Some(link.to_owned())));
-        // The description of a larger robot does not have the chain's name.
-        let is_larger = matches!(&description, Description::Robot(robot) if robot.name() != listed.name());
-        let name = (is_larger && listed.ends().is_some()).then(|| listed.name().to_owned());
+        // A chain between links has the name of both otherwise.
+        let name = listed.ends().map(|_| listed.name().to_owned());
         let ends = Ends { base, tip, task: listed.task(), name, ..Ends::default() };
         Ok(InputFile { name: description.file_name(false), text: listed.text().to_owned(), path, description, ends })
     }
