@@ -249,6 +249,19 @@ fn written_robots_are_read_back() {
     }
 }
 
+/// A link without mass between the world and a joint is a link: a frame would be fixed to another link.
+#[test]
+fn links_at_the_world_are_written() {
+    let fixed = |name: &str, parent: &str, child: &str, kind: &str| {
+        format!("<joint name='{name}' type='{kind}'><parent link='{parent}'/><child link='{child}'/></joint>")
+    };
+    let links: String = ["world", "stand", "arm"].map(|name| format!("<link name='{name}'/>")).concat();
+    let joints = fixed("s", "world", "stand", "fixed") + &fixed("j", "stand", "arm", "continuous");
+    let robot = Robot::from_urdf(&format!("<robot name='r'>{links}{joints}</robot>")).unwrap();
+    let again = Robot::from_sdf(&robot.to_sdf(&mut Vec::new()).unwrap(), None).unwrap();
+    assert_eq!((again.root(), again.joints()[1].parent.as_str()), ("world", "stand"));
+}
+
 #[test]
 fn floating_joints_are_not_written() {
     let text = "<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='floating'><parent link='a'/><child link='b'/></joint></robot>";

@@ -157,7 +157,8 @@ fn compose(path: &[(usize, Placement)]) -> Placement {
 /// An error of another kind at the place of `at`.
 fn like(at: &Error, kind: ErrorKind, text: String) -> Error {
     let place = at.place();
-    let error = Error::new(kind, format!("{}: {text}", at.message()));
+    let text = if at.message().is_empty() { text } else { format!("{}: {text}", at.message()) };
+    let error = Error::new(kind, text);
     let error = place.line.map_or(error.clone(), |line| error.at_line(line));
     place.file.as_ref().map_or(error.clone(), |file| error.in_file(file))
 }
