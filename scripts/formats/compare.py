@@ -269,6 +269,8 @@ def positions(model, urdf, bodies, path, groebot, result):
 def tip(urdf, chain, link, asked, reached, path, groebot, result):
     """The poses of one tip link by `groebot fk`."""
     names = [joint.get("name") for joint in chain if joint.find("mimic") is None]
+    if not names:
+        return
     table = io.StringIO()
     writer = csv.writer(table)
     writer.writerow(names)

@@ -46,7 +46,10 @@ fn poses_are_those_of_drake() {
     let model = Model::new(&robot).unwrap();
     let names: Vec<&str> = robot.moving().iter().map(|place| robot.joints()[*place].name.as_str()).collect();
     for pose in witness["poses"].as_array().unwrap() {
-        let mut q: Vec<f64> = names.iter().map(|name| pose["q"][*name].as_f64().unwrap_or(0.0)).collect();
+        let mut q: Vec<f64> = names
+            .iter()
+            .map(|name| pose["q"][*name].as_f64().unwrap_or_else(|| panic!("no value of `{name}`")))
+            .collect();
         robot.follow(&mut q);
         let placed = model.place(&Pose::identity(), &q).unwrap();
         for (frame, wanted) in pose["frames"].as_object().unwrap() {
