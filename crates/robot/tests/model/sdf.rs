@@ -116,7 +116,7 @@ fn several_axes_and_unlimited_joints() {
     assert_eq!(kinds(&read("revolute", half)), "continuous");
 }
 
-/// Before version 1.5 axes are in the model's frame; later a file can say so.
+/// Before version 1.5 axes are in the model's frame; later by `use_parent_model_frame`.
 #[test]
 fn axes_of_old_files() {
     let axis = |version: &str, old: &str| {
@@ -213,6 +213,31 @@ fn includes_are_bounded() {
         assert_eq!(read(&main(uri, 1), &plain).unwrap_err().kind(), ErrorKind::Unsupported, "{uri}");
     }
     assert_eq!(read(&main("none", 1), &plain).unwrap_err().kind(), ErrorKind::Io);
+}
+
+/// Damaged files, each with a few replaced words, are read or refused, and what is read is written.
+#[test]
+fn damaged_words_do_no_harm() {
+    let start = ARM.find("<include>").unwrap();
+    let end = ARM.find("<joint name=\"wrist\"").unwrap();
+    let plain = [&ARM[..start], "<model name=\"hand\"><link name=\"palm\"/><frame name=\"tip\"/></model>", &ARM[end..]]
+        .concat();
+    let words: Vec<&str> = plain.split_inclusive([' ', '"', '>', '<']).collect();
+    let mut state = 1_u64;
+    let mut draw = |most: usize| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as usize % most
+    };
+    for _ in 0..300 {
+        let mut damaged = words.clone();
+        for _ in 0..3 {
+            let (from, to) = (draw(words.len()), draw(words.len()));
+            damaged[to] = words[from];
+        }
+        if let Ok(robot) = Robot::from_sdf(&damaged.concat(), None) {
+            let _ = (robot.to_urdf(), robot.to_sdf(&mut Vec::new()), robot.doubts());
+        }
+    }
 }
 
 #[test]
