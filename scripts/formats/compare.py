@@ -224,7 +224,11 @@ def link_of(model, b):
 def compare(identity, path: Path, groebot: Path, vectors: int) -> Result:
     """All differences between groebot's robot and MuJoCo's model of the file."""
     result = Result(identity, vectors=vectors)
-    model = mujoco.MjModel.from_xml_path(str(path))
+    try:
+        model = mujoco.MjModel.from_xml_path(str(path))
+    except ValueError as error:
+        result.faults.append(f"MuJoCo refuses it: {str(error).splitlines()[0]}")
+        return result
     run = subprocess.run([groebot, "export", path, "--to", "urdf"], capture_output=True, text=True, check=False)
     if run.returncode:
         result.faults.append(run.stderr.strip().splitlines()[-1] if run.stderr.strip() else f"exit status {run.returncode}")
@@ -265,6 +269,8 @@ def positions(model, urdf, bodies, path, groebot, result):
 def tip(urdf, chain, link, asked, reached, path, groebot, result):
     """The poses of one tip link by `groebot fk`."""
     names = [joint.get("name") for joint in chain if joint.find("mimic") is None]
+    if not names:
+        return
     table = io.StringIO()
     writer = csv.writer(table)
     writer.writerow(names)

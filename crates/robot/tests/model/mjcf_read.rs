@@ -235,6 +235,28 @@ fn includes_are_bounded() {
     assert_eq!(read(&main.replace("part.xml", "none.xml"), "<x/>").unwrap_err().kind(), ErrorKind::Io);
 }
 
+/// Damaged files, each with a few replaced words, are read or refused, and what is read is written.
+#[test]
+fn damaged_words_do_no_harm() {
+    let plain = ARM.replace("<include file=\"part.xml\"/>", "");
+    let words: Vec<&str> = plain.split_inclusive([' ', '"', '>', '<']).collect();
+    let mut state = 1_u64;
+    let mut draw = |most: usize| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as usize % most
+    };
+    for _ in 0..300 {
+        let mut damaged = words.clone();
+        for _ in 0..3 {
+            let (from, to) = (draw(words.len()), draw(words.len()));
+            damaged[to] = words[from];
+        }
+        if let Ok(robot) = Robot::from_mjcf(&damaged.concat(), None) {
+            let _ = (robot.to_urdf(), robot.to_sdf(&mut Vec::new()), robot.doubts());
+        }
+    }
+}
+
 /// A deep tree is refused before it is read, and damaged files give errors.
 #[test]
 fn deep_and_damaged_files_are_refused() {

@@ -46,7 +46,10 @@ fn poses_are_those_of_drake() {
     let model = Model::new(&robot).unwrap();
     let names: Vec<&str> = robot.moving().iter().map(|place| robot.joints()[*place].name.as_str()).collect();
     for pose in witness["poses"].as_array().unwrap() {
-        let mut q: Vec<f64> = names.iter().map(|name| pose["q"][*name].as_f64().unwrap_or(0.0)).collect();
+        let mut q: Vec<f64> = names
+            .iter()
+            .map(|name| pose["q"][*name].as_f64().unwrap_or_else(|| panic!("no value of `{name}`")))
+            .collect();
         robot.follow(&mut q);
         let placed = model.place(&Pose::identity(), &q).unwrap();
         for (frame, wanted) in pose["frames"].as_object().unwrap() {
@@ -113,7 +116,7 @@ fn several_axes_and_unlimited_joints() {
     assert_eq!(kinds(&read("revolute", half)), "continuous");
 }
 
-/// Before version 1.5 axes are in the model's frame; later a file can say so.
+/// Before version 1.5 axes are in the model's frame; later by `use_parent_model_frame`.
 #[test]
 fn axes_of_old_files() {
     let axis = |version: &str, old: &str| {
@@ -212,6 +215,31 @@ fn includes_are_bounded() {
     assert_eq!(read(&main("none", 1), &plain).unwrap_err().kind(), ErrorKind::Io);
 }
 
+/// Damaged files, each with a few replaced words, are read or refused, and what is read is written.
+#[test]
+fn damaged_words_do_no_harm() {
+    let start = ARM.find("<include>").unwrap();
+    let end = ARM.find("<joint name=\"wrist\"").unwrap();
+    let plain = [&ARM[..start], "<model name=\"hand\"><link name=\"palm\"/><frame name=\"tip\"/></model>", &ARM[end..]]
+        .concat();
+    let words: Vec<&str> = plain.split_inclusive([' ', '"', '>', '<']).collect();
+    let mut state = 1_u64;
+    let mut draw = |most: usize| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as usize % most
+    };
+    for _ in 0..300 {
+        let mut damaged = words.clone();
+        for _ in 0..3 {
+            let (from, to) = (draw(words.len()), draw(words.len()));
+            damaged[to] = words[from];
+        }
+        if let Ok(robot) = Robot::from_sdf(&damaged.concat(), None) {
+            let _ = (robot.to_urdf(), robot.to_sdf(&mut Vec::new()), robot.doubts());
+        }
+    }
+}
+
 #[test]
 fn deep_and_damaged_files_are_refused() {
     let deep = "<model name='m'>".repeat(100_000);
@@ -247,6 +275,19 @@ fn written_robots_are_read_back() {
             assert!((masses[0] - masses[1]).abs() < 1e-5, "{}: {masses:?}", link.name);
         }
     }
+}
+
+/// A link without mass between the world and a joint is a link: a frame would be fixed to another link.
+#[test]
+fn links_at_the_world_are_written() {
+    let fixed = |name: &str, parent: &str, child: &str, kind: &str| {
+        format!("<joint name='{name}' type='{kind}'><parent link='{parent}'/><child link='{child}'/></joint>")
+    };
+    let links: String = ["world", "stand", "arm"].map(|name| format!("<link name='{name}'/>")).concat();
+    let joints = fixed("s", "world", "stand", "fixed") + &fixed("j", "stand", "arm", "continuous");
+    let robot = Robot::from_urdf(&format!("<robot name='r'>{links}{joints}</robot>")).unwrap();
+    let again = Robot::from_sdf(&robot.to_sdf(&mut Vec::new()).unwrap(), None).unwrap();
+    assert_eq!((again.root(), again.joints()[1].parent.as_str()), ("world", "stand"));
 }
 
 #[test]

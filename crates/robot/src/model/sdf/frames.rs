@@ -111,16 +111,16 @@ impl Frames {
     /// [`ErrorKind::UnknownName`] for a frame that does not exist; [`ErrorKind::BadValue`] for frames that refer to each
     /// other.
     pub fn between(&self, outer: &str, inner: &str, at: &Error) -> Result<Placement> {
-        let [from, to] = [self.path(self.place(outer, at)?, 0)?, self.path(self.place(inner, at)?, 0)?];
+        let [from, to] = [self.path(self.place(outer, at)?, 0, 0)?, self.path(self.place(inner, at)?, 0, 0)?];
         // Frames above both cancel.
         let shared = from.iter().rev().zip(to.iter().rev()).take_while(|(a, b)| a.0 == b.0).count();
         Ok(compose(&from[..from.len() - shared]).inverse().then(&compose(&to[..to.len() - shared])))
     }
 
-    /// The frames from a frame up to the world, each with its pose in the next.
-    fn path(&self, place: usize, depth: usize) -> Result<Vec<(usize, Placement)>> {
+    /// The frames from a frame up to the frame `end`, or to the world, each with its pose in the next.
+    fn path(&self, place: usize, end: usize, depth: usize) -> Result<Vec<(usize, Placement)>> {
         let (mut path, mut place) = (Vec::new(), place);
-        while let Some(reference) = &self.frames[place].reference {
+        while let Some(reference) = self.frames[place].reference.as_ref().filter(|_| place != end) {
             let frame = &self.frames[place];
             if path.len() + depth > DEEPEST {
                 let text = "the frames refer to each other in a circle, or by more than 200 steps";
@@ -129,19 +129,19 @@ impl Frames {
             path.push((place, self.pose(place, depth)?));
             place = self.place(reference, &frame.error)?;
         }
-        Ok(path)
+        if place == end || end == 0 {
+            return Ok(path);
+        }
+        let frame = &self.frames[end];
+        let text = "its placement frame is not in the model".to_owned();
+        Err(like(&frame.error, ErrorKind::BadValue, text))
     }
 
     /// The pose of a frame in its reference.
     fn pose(&self, place: usize, depth: usize) -> Result<Placement> {
         let frame = &self.frames[place];
         let Some(by) = &frame.placed_by else { return Ok(frame.pose.clone()) };
-        let mut path = self.path(self.place(by, &frame.error)?, depth + DEEPEST / 4)?;
-        let Some(own) = path.iter().position(|(other, _)| *other == place) else {
-            let text = format!("its placement frame `{}` is not in the model", shown(by));
-            return Err(like(&frame.error, ErrorKind::BadValue, text));
-        };
-        path.truncate(own);
+        let path = self.path(self.place(by, &frame.error)?, place, depth + DEEPEST / 4)?;
         Ok(frame.pose.then(&compose(&path).inverse()))
     }
 }
@@ -157,7 +157,8 @@ fn compose(path: &[(usize, Placement)]) -> Placement {
 /// An error of another kind at the place of `at`.
 fn like(at: &Error, kind: ErrorKind, text: String) -> Error {
     let place = at.place();
-    let error = Error::new(kind, format!("{}: {text}", at.message()));
+    let text = if at.message().is_empty() { text } else { format!("{}: {text}", at.message()) };
+    let error = Error::new(kind, text);
     let error = place.line.map_or(error.clone(), |line| error.at_line(line));
     place.file.as_ref().map_or(error.clone(), |file| error.in_file(file))
 }

@@ -162,7 +162,7 @@ impl Scope {
     /// Adds a joint between its links. Returns whether its parent is the world.
     fn connect(&mut self, pending: &Pending) -> Result<bool> {
         let Pending { name, prefix, element } = pending;
-        let at = place(element, "joint");
+        let at = at(element, String::new());
         let kind = Kind::of(element)?;
         let Some(kind) = kind else {
             let text = format!(
@@ -215,6 +215,11 @@ fn name_of(element: &Element) -> Result<&str> {
 /// The place of an element in the file, as an error without a cause.
 fn place(element: &Element, what: &str) -> Error {
     let name = element.attribute("name").unwrap_or("");
-    let error = Error::new(ErrorKind::BadValue, format!("{what} `{}`", shown(name))).at_line(element.line);
+    at(element, format!("{what} `{}`", shown(name)))
+}
+
+/// The place of an element in the file, with the start of a message.
+fn at(element: &Element, start: String) -> Error {
+    let error = Error::new(ErrorKind::BadValue, start).at_line(element.line);
     if let Some(file) = &element.file { error.in_file(file) } else { error }
 }

@@ -59,8 +59,14 @@ impl<'r> Writer<'r> {
             })
             .collect();
         let joints = robot.joints().iter().map(|joint| unused(&mut taken, &joint.name)).collect();
-        let above = |place: usize| robot.ancestry(place).first().map(|joint| robot.joints()[*joint].kind);
-        let is_frame = |(place, link)| is_bare(link) && above(place) == Some(JointType::Fixed);
+        // A frame is fixed to a link of the model; the world is none.
+        let is_held = |place: usize| {
+            let above = robot.ancestry(place).first().copied();
+            above.is_some_and(|joint| {
+                robot.joints()[joint].kind == JointType::Fixed && links[robot.ends(joint).0] != WORLD
+            })
+        };
+        let is_frame = |(place, link)| is_bare(link) && is_held(place);
         let frames = robot.links().iter().enumerate().map(is_frame).collect();
         Writer { robot, notes, links, joints, frames }
     }
@@ -94,9 +100,6 @@ impl<'r> Writer<'r> {
         let (parent, child) = self.robot.ends(joint);
         let (parent, child) = (escaped(&self.links[parent]), escaped(&self.links[child]));
         let pose = self.pose(joint);
-        if parent == WORLD {
-            return writeln!(out, "    <frame name=\"{child}\"><pose>{pose}</pose></frame>");
-        }
         writeln!(out, "    <frame name=\"{child}\" attached_to=\"{parent}\"><pose>{pose}</pose></frame>")
     }
 

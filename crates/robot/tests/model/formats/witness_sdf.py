@@ -28,18 +28,25 @@ laws = {
 }
 
 
+# Drake gives a joint and a frame to the model of the link that they are fixed to.
+model = ET.parse(sys.argv[1]).getroot().find("model")
+own = {element.get("name") for element in model.findall("joint") + model.findall("frame")}
+
+
 def full(element):
     """The name in the outermost model, `hand::finger`."""
+    if element.name() in own:
+        return element.name()
     scope = plant.GetModelInstanceName(element.model_instance())
     scope = scope.removeprefix(outer).removeprefix("::")
     return f"{scope}::{element.name()}" if scope else element.name()
 
 
-joints = [plant.get_joint(j) for j in plant.GetJointIndices()]
-joints = [joint for joint in joints if joint.num_positions() == 1]
+every_joint = [plant.get_joint(j) for j in plant.GetJointIndices()]
+joints = [joint for joint in every_joint if joint.num_positions() == 1]
 bodies = [plant.get_body(BodyIndex(b)) for b in range(1, plant.num_bodies())]
 frames = [plant.get_frame(FrameIndex(f)) for f in range(1, plant.num_frames()) if plant.GetModelInstanceName(plant.get_frame(FrameIndex(f)).model_instance()).startswith(outer)]
-frames = [frame for frame in frames if not frame.name().startswith("__") and not any(frame.name().startswith(joint.name()) for joint in joints)]
+frames = [frame for frame in frames if not frame.name().startswith("__") and not any(frame.name().startswith(joint.name()) for joint in every_joint)]
 
 
 def pose():
