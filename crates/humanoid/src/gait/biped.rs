@@ -47,7 +47,7 @@ pub struct Foot {
 }
 
 /// A biped: its joints, masses and soles. The torso is the root link, with x forward, y left, z up; the feet are level
-/// at the zero configuration. [`Footing`](super::Footing) makes it from descriptions with other frames.
+/// at the zero configuration, or pitched. [`Footing`](super::Footing) makes it from descriptions with other frames.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Biped {

@@ -121,7 +121,8 @@ impl Footing {
                 return derive(&chain);
             }
             let (_, torso_from_link) = biped.model.link(foot.link);
-            let direction = exact(&(torso_from_link.rotation.inverse() * held_direction(&biped, foot)?));
+            let in_torso = foot.torso_from_sole.rotation * held_direction(&biped, foot)?;
+            let direction = exact(&(torso_from_link.rotation.inverse() * in_torso));
             let chain = chain.with_task(Task::Ray, direction.clone(), Vec::new())?;
             Ok(Arc::new(pointing(derive(&chain)?, normalized(&direction).into_inner())))
         };
