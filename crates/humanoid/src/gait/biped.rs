@@ -1,6 +1,6 @@
 //! The model of a biped that a gait uses: joints, masses, soles. Main type: [`Biped`].
 
-use nalgebra::{Point2, Point3};
+use nalgebra::{Point2, Point3, Vector3};
 
 use super::contact::{Outline, touching};
 use super::footprint::{Footprint, Side};
@@ -35,8 +35,8 @@ pub struct Foot {
     pub link: usize,
     /// The index of its body in the model.
     pub body: usize,
-    /// The frame of the sole in the torso frame at the zero configuration: x forward, y left, z up. Its origin is in
-    /// the plane of the sole.
+    /// The frame of the sole in the torso frame at the zero configuration: x forward, y left, z up; turned about y where
+    /// the sole is not level there. Its origin is in the plane of the sole.
     pub torso_from_sole: Pose,
     /// The height of the ankle's last axis above the sole \[m\].
     pub ankle_height: f64,
@@ -47,7 +47,7 @@ pub struct Foot {
 }
 
 /// A biped: its joints, masses and soles. The torso is the root link, with x forward, y left, z up; the feet are level
-/// at the zero configuration. [`Footing`](super::Footing) makes it from descriptions with other frames.
+/// at the zero configuration, or pitched. [`Footing`](super::Footing) makes it from descriptions with other frames.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Biped {
@@ -97,7 +97,12 @@ impl Biped {
     /// As [`Biped::new`], except those about shapes.
     pub fn on_outlines(robot: &Robot, soles: [&str; 2], height: f64, outlines: [Vec<Point2<f64>>; 2]) -> Result<Self> {
         let links = [robot.link(soles[0])?, robot.link(soles[1])?];
-        Biped::with_outlines(robot, Model::new(robot)?, links, outlines.map(|outline| (height, outline)))
+        Biped::with_outlines(
+            robot,
+            Model::new(robot)?,
+            links,
+            outlines.map(|corners| Outline::level((height, corners))),
+        )
     }
 
     /// Same as [`Biped::new`], but with the links' indices, with soles by `outlines`, and with the frame of the torso.
@@ -223,12 +228,19 @@ fn ranges(robot: &Robot, model: &Model) -> Result<Vec<JointRange>> {
     robot.moving().into_iter().zip(model.joints().iter().map(|joint| &joint.name)).map(range).collect()
 }
 
-fn foot(model: &Model, link: usize, (height, corners): &(f64, Vec<Point2<f64>>)) -> Foot {
+fn foot(model: &Model, link: usize, outline: &Outline) -> Foot {
     let (body, torso_from_link) = model.link(link);
     let joints = model.path(body);
     let at = torso_from_link.translation.vector;
-    let torso_from_sole = Pose::translation(at.x, at.y, at.z + height);
-    let ankle = joints.last().and_then(|joint| model.joints()[*joint].screw.axis()).map_or(at.z, |axis| axis.point().z);
-    let ankle_height = ankle - torso_from_sole.translation.z;
-    Foot { link, body, torso_from_sole, ankle_height, corners: corners.clone(), joints }
+    let axes = outline.axes();
+    let torso_from_sole = Pose::from_parts((at + axes * Vector3::new(0.0, 0.0, outline.height)).into(), axes);
+    let ankle =
+        joints.last().and_then(|joint| model.joints()[*joint].screw.axis()).map_or(at, |axis| axis.point().coords);
+    let ankle_height = above(&torso_from_sole, &ankle);
+    Foot { link, body, torso_from_sole, ankle_height, corners: outline.corners.clone(), joints }
+}
+
+/// The distance of a point of the torso frame from the plane of a sole at `torso_from_sole` \[m\].
+pub(super) fn above(torso_from_sole: &Pose, point: &Vector3<f64>) -> f64 {
+    (torso_from_sole.rotation * Vector3::z()).dot(&(point - torso_from_sole.translation.vector))
 }

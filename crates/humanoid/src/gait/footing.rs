@@ -78,9 +78,15 @@ impl Footing {
         let own = [0, 1].map(|side| Contact::of(&turned, links[side], meshes));
         let is_own = outline.is_none() && own.iter().all(|contact| contact.outline.is_some() && contact.collides);
         let outlines = match outline {
-            Some((height, [left, right])) => [(height, left), (height, right)],
+            Some((height, corners)) => corners.map(|corners| Outline::level((height, corners))),
             None => own.map(|contact| contact.outline_or_assumed(&turned, &mut notes)),
         };
+        if outlines[0].pitch != 0.0 {
+            notes.push(format!(
+                "the soles are not level at zero: they are pitched by {:.1} deg",
+                outlines[0].pitch.to_degrees()
+            ));
+        }
         let Turned { robot, torso_from_root, .. } = turned;
         Ok(Footing { robot, torso_from_root, links, outlines, is_own, notes })
     }
@@ -115,7 +121,8 @@ impl Footing {
                 return derive(&chain);
             }
             let (_, torso_from_link) = biped.model.link(foot.link);
-            let direction = exact(&(torso_from_link.rotation.inverse() * held_direction(&biped, foot)?));
+            let in_torso = foot.torso_from_sole.rotation * held_direction(&biped, foot)?;
+            let direction = exact(&(torso_from_link.rotation.inverse() * in_torso));
             let chain = chain.with_task(Task::Ray, direction.clone(), Vec::new())?;
             Ok(Arc::new(pointing(derive(&chain)?, normalized(&direction).into_inner())))
         };
@@ -139,11 +146,11 @@ impl Footing {
         }
         let model = Model::new(&self.robot)?;
         let mut shod = robot.clone();
-        for (link, (height, corners)) in self.links.into_iter().zip(&self.outlines) {
-            let (low, high) = contact::bounds(corners);
-            let link_from_torso = model.link(link).1.rotation.inverse();
-            let middle = Vector3::new((low.x + high.x) / 2.0, (low.y + high.y) / 2.0, height + THICK / 2.0);
-            let link_from_box = Pose::from_parts((link_from_torso * middle).into(), link_from_torso);
+        for (link, outline) in self.links.into_iter().zip(&self.outlines) {
+            let (low, high) = contact::bounds(&outline.corners);
+            let link_from_sole = model.link(link).1.rotation.inverse() * outline.axes();
+            let middle = Vector3::new((low.x + high.x) / 2.0, (low.y + high.y) / 2.0, outline.height + THICK / 2.0);
+            let link_from_box = Pose::from_parts((link_from_sole * middle).into(), link_from_sole);
             shod = shod.with_contact_box(link, &link_from_box, [high.x - low.x, high.y - low.y, THICK])?;
         }
         Ok(shod)
@@ -176,7 +183,7 @@ impl Contact {
         let (body, torso_from_link) = model.link(link);
         let joint = robot.moving()[body.saturating_sub(1)];
         let ankle = model.link(robot.ends(joint).1).1.translation.vector - torso_from_link.translation.vector;
-        let outline = Some(contact::lowest(&points)).filter(|(_, corners)| corners.len() >= 3);
+        let outline = Some(contact::lowest(&points)).filter(|outline| outline.corners.len() >= 3);
         let own = (0..robot.links().len()).filter(|place| model.link(*place).0 == body);
         let collides = own.into_iter().any(|place| !robot.links()[place].collisions.is_empty());
         Contact { link, ankle: ankle.into(), outline, collides, reason: errors.into_iter().next() }
@@ -186,7 +193,7 @@ impl Contact {
     /// symmetric.
     fn is_ahead(feet: &[Contact; 2]) -> Option<bool> {
         let ahead = |contact: &Contact| {
-            let (low, high) = contact::bounds(&contact.outline.as_ref()?.1);
+            let (low, high) = contact::bounds(&contact.outline.as_ref()?.corners);
             Some(((low.x + high.x) / 2.0 - contact.ankle.x) / (high.x - low.x))
         };
         let share = (ahead(&feet[0])? + ahead(&feet[1])?) / 2.0;
@@ -201,7 +208,7 @@ impl Contact {
         }
         let joints = turned.model.path(turned.model.link(self.link).0);
         let outline = contact::assumed(limbs::leg_length(&turned.model, &joints), &self.ankle);
-        let (low, high) = contact::bounds(&outline.1);
+        let (low, high) = contact::bounds(&outline.corners);
         let reason = self.reason.map(|error| format!(" ({error})")).unwrap_or_default();
         notes.push(format!(
             "link `{name}` has no shape that groebot reads{reason}; its sole is assumed to be {:.0} x {:.0} mm; give --outline {:.3},{:.3},{:.3},{:.3},{:.3} or better numbers",
@@ -211,7 +218,7 @@ impl Contact {
             high.x,
             low.y,
             high.y,
-            outline.0
+            outline.height
         ));
         outline
     }

@@ -2,9 +2,9 @@
 
 use std::borrow::Cow;
 
-use nalgebra::{Point2, Vector2};
+use nalgebra::{Point2, UnitQuaternion, Vector2};
 
-use super::biped::{Biped, Foot};
+use super::biped::{Biped, Foot, above};
 use super::defaults::GaitDefaults;
 use super::footprint::Side;
 use super::legs::{LegSolver, Legs};
@@ -17,6 +17,7 @@ use super::zmp::GRAVITY;
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::kinematics::Target;
 use groebot_robot::model::Robot;
+use groebot_robot::spatial::Pose;
 
 /// A walking robot with its gaits by name, the default first, each with its default parameters.
 #[derive(Clone, Debug)]
@@ -45,6 +46,13 @@ const BENT: [f64; 7] = [0.94, 0.925, 0.955, 0.965, 0.91, 0.89, 0.87];
 const PACE: f64 = 0.3;
 const PENDULUMS: f64 = 3.2;
 const BOTH_FEET: f64 = 0.4;
+/// The least torque of the motor that rolls the hip, as a multiple of [`hip_strength`]'s unit, with which steps by
+/// preview control have their full length and turn. Weaker robots take shorter steps, and turn less in a step, in
+/// proportion. With full steps Booster T1 (0.86) and the Berkeley Humanoid (0.79) fell in MuJoCo on a level floor.
+const STRONG: f64 = 1.5;
+/// The greatest distance of a foot from the middle by preview control, as a fraction of the leg's length. At zero it is
+/// 0.4 in the Berkeley Humanoid, whose centre of mass does not get over such a foot: its legs have two thirds of the mass.
+const WIDE: f64 = 0.26;
 /// The duration of the rest before and after a walk by preview control in that unit: the motion that begins before the
 /// first step, and fades after the last one, by `exp(-t)`, is then below 0.1 %.
 const REST: f64 = 7.0;
@@ -106,7 +114,7 @@ fn crouched(biped: &Biped, foot: &Foot, solver: &LegSolver) -> Result<Vec<f64>> 
     let size = |answer: &Vec<f64>| answer.iter().map(|value| value.abs()).fold(0.0, f64::max);
     let (hip, (length, ankle)) = (biped.hips[0].z, leg(biped));
     for share in HEIGHTS.into_iter().rev() {
-        let mut torso_from_sole = foot.torso_from_sole;
+        let mut torso_from_sole = Pose::from_parts(foot.torso_from_sole.translation, UnitQuaternion::identity());
         torso_from_sole.translation.z = hip - share * length - ankle;
         let mut found = Vec::new();
         solver.solve(&Target::Pose(torso_from_sole * sole_from_link), &[], &mut found)?;
@@ -123,8 +131,8 @@ fn crouched(biped: &Biped, foot: &Foot, solver: &LegSolver) -> Result<Vec<f64>> 
 fn leg(biped: &Biped) -> (f64, f64) {
     let foot = &biped.feet[0];
     let [_, _, ankle] = sagittal(&biped.model, &foot.joints);
-    let sole = foot.torso_from_sole.translation.z;
-    let height = biped.model.joints()[ankle].screw.axis().map_or(0.0, |axis| axis.point().z - sole);
+    let axis = biped.model.joints()[ankle].screw.axis();
+    let height = axis.map_or(0.0, |axis| above(&foot.torso_from_sole, &axis.point().coords));
     (leg_length(&biped.model, &foot.joints), height)
 }
 
@@ -163,18 +171,33 @@ fn one_step(biped: &Biped) -> GaitDefaults {
 /// Preview control: steps at a pace of pendulums of the legs' length, so that robots of all sizes move alike.
 pub(crate) fn preview_defaults(biped: &Biped) -> GaitDefaults {
     let ((length, ankle), (ahead, room)) = (leg(biped), sole(biped));
+    let ease = (hip_strength(biped) / STRONG).min(1.0);
+    let half_width = biped.half_width().min(WIDE * length);
     GaitDefaults {
         gait: Gait::Preview,
-        length: PACE * length,
+        length: PACE * length * ease,
         lift: 0.05 * length,
-        amplitude: biped.half_width(),
+        half_width: (half_width < biped.half_width()).then_some(half_width),
+        amplitude: half_width,
         hip_heights: Cow::Owned(BENT.map(|share| share * length + ankle).to_vec()),
         period: PENDULUMS * (length / GRAVITY).sqrt(),
         double_support: BOTH_FEET,
         rest: REST * (length / GRAVITY).sqrt(),
         ahead,
         margin: 0.25 * room,
-        most_turn: 0.25,
+        most_turn: 0.25 * ease,
         ..one_step(biped)
     }
+}
+
+/// The greatest torque of the motor that rolls the left hip, in units of the torque that holds the robot at rest on the
+/// left foot: the weight of the robot times the distance of the foot from the middle. Infinite where the description has
+/// no effort.
+fn hip_strength(biped: &Biped) -> f64 {
+    let foot = &biped.feet[Side::Left as usize];
+    let axis = |joint: usize| biped.model.joints()[joint].screw.axis();
+    let forward = |joint: usize| axis(joint).map_or(0.0, |axis| axis.direction().x.abs());
+    let hip = foot.joints.iter().copied().take(3).max_by(|a, b| forward(*a).total_cmp(&forward(*b)));
+    let effort = hip.and_then(|joint| biped.joints[joint].effort).unwrap_or(f64::INFINITY);
+    effort / (biped.model.mass() * GRAVITY * biped.half_width())
 }

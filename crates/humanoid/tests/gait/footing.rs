@@ -3,14 +3,14 @@
 use std::fmt::Write;
 use std::sync::{Arc, LazyLock};
 
-use groebot_humanoid::gait::{Footing, GaitDefaults, LegSolver, Measures, Route, Side, Walk, Walker, plan_at};
+use groebot_humanoid::gait::{Footing, GRAVITY, GaitDefaults, LegSolver, Measures, Route, Side, Walk, Walker, plan_at};
 use groebot_humanoid::{ErrorKind, Result, Watch};
 use groebot_ik::derive::Options;
 use groebot_robot::dynamics::Model;
 use groebot_robot::kinematics::Chain;
 use groebot_robot::model::{Meshes, Robot};
 use groebot_robot::spatial::Pose;
-use nalgebra::{Point2, Vector3};
+use nalgebra::{Point2, Point3, Vector3};
 
 const NO_LINKS: [Option<&str>; 2] = [None, None];
 
@@ -273,4 +273,49 @@ fn a_foot_without_a_shape_gets_one_in_walk_and_export() {
         let corners = walker.biped.feet[side].corners.iter().map(|corner| corner.x);
         assert!((front - corners.fold(f64::NEG_INFINITY, f64::max)).abs() < 1e-12);
     }
+}
+
+/// The feet of the Berkeley Humanoid point up by 10 degrees at zero.
+#[test]
+fn soles_that_are_pitched_at_zero_stand_flat() {
+    let origin = "<origin xyz=\"0.03 0 -0.04\"/>";
+    let pitched = "<origin xyz=\"0.03 0 -0.04\" rpy=\"0 -0.17 0\"/>";
+    let robot = Robot::from_urdf(&PLAIN.urdf().replace(origin, pitched)).unwrap();
+    let found = footing(&robot, NO_LINKS).unwrap();
+    assert!(found.notes()[0].contains("pitched by -9.7 deg"), "{:?}", found.notes());
+    let walker = found.walker(derived).unwrap();
+    let walk = walk(&walker, (0.3, 0.0, Some(0.2))).unwrap();
+    for (side, name) in ["l_foot", "r_foot"].into_iter().enumerate() {
+        let shape = &robot.links()[robot.link(name).unwrap()].collisions[0];
+        for (pose, reference) in poses(&robot, &walker, &walk, name).iter().zip(&walk.references) {
+            let on_floor = |point: &Point3<f64>| (pose * shape.pose() * point).z.abs() < 1e-6;
+            let touching = shape.solid.points().iter().filter(|point| on_floor(point)).count();
+            assert!(!reference.stands[side] || touching == 4, "{name}: {touching} corners touch the floor");
+        }
+    }
+}
+
+#[test]
+fn weak_hips_walk_with_shorter_steps_that_turn_less() {
+    let preview = |walker: &Walker| walker.gaits.iter().find(|(name, _)| *name == "preview").unwrap().1.clone();
+    let strong = preview(plain());
+    // Three quarters of what holds 16.8 kg on a foot 0.1 m from the middle: half of what full steps need.
+    let effort = format!("effort=\"{}\"", 0.75 * 16.8 * GRAVITY * 0.1);
+    let robot = Robot::from_urdf(&PLAIN.urdf().replace("effort=\"99\"", &effort)).unwrap();
+    let weak = preview(&footing(&robot, NO_LINKS).unwrap().walker(derived).unwrap());
+    assert!((weak.length / strong.length - 0.5).abs() < 1e-9, "{} m of {} m", weak.length, strong.length);
+    assert!((weak.most_turn / strong.most_turn - 0.5).abs() < 1e-9);
+    assert_eq!(weak.period, strong.period);
+}
+
+#[test]
+fn wide_hips_walk_with_feet_nearer_to_each_other() {
+    let wide = Description { aside: 0.2, ..PLAIN };
+    let walker = footing(&wide.robot(), NO_LINKS).unwrap().walker(derived).unwrap();
+    let preview = &walker.gaits.iter().find(|(name, _)| *name == "preview").unwrap().1;
+    // 0.26 of the legs' length of 0.6 m.
+    assert!((preview.half_width(&walker.biped) - 0.156).abs() < 1e-9);
+    assert_eq!(preview.amplitude, preview.half_width(&walker.biped));
+    let walk = walk_by(&walker, preview, (0.2, 0.0, None)).unwrap();
+    feet_are_where_the_walk_says(&wide, &walker, &walk);
 }
