@@ -13,6 +13,7 @@
 
 mod certificate;
 mod content;
+pub mod converted;
 mod encoding;
 mod json;
 mod text;
@@ -27,6 +28,7 @@ use groebot_algebra::number::{BigInt, BigRational, parse_rational};
 
 pub use certificate::{Certificate, Proves, head_of};
 pub use content::{explained, is_xml, refuse_binary};
+pub use converted::as_toml;
 pub use encoding::{XmlText, as_utf8, decode_xml};
 pub use groebot_algebra::escape::shown;
 pub use json::{JsonFormat, json_text};

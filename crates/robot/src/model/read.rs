@@ -5,7 +5,7 @@ use std::path::Path;
 use super::urdf::URDF_LIMIT;
 use super::{ReadOptions, Robot, xacro};
 use crate::Result;
-use crate::document::{TEXT_LIMIT, decode_xml, explained, is_xml, read_description, refuse_binary, text_of};
+use crate::document::{TEXT_LIMIT, as_toml, decode_xml, explained, is_xml, read_description, refuse_binary, text_of};
 
 /// The ends of names of files in XML.
 const XML_ENDS: [&str; 5] = ["urdf", "xml", "xacro", "sdf", "mjcf"];
@@ -44,7 +44,7 @@ impl Robot {
             let robot = Robot::from_xml(&xml.text, Some(path)).map_err(|error| explained(error, &xml.text))?;
             return Ok(robot.with_notes(xml.notes));
         }
-        let text = text_of(bytes)?;
+        let text = as_toml(text_of(bytes)?)?;
         Robot::from_toml(&text).map_err(|error| explained(error, &text))
     }
 }

@@ -1,5 +1,7 @@
 //! The TOML layer: exact numbers, lines, messages, and no panics.
 
+mod converted;
+
 use std::path::Path;
 
 use groebot_algebra::number::parse_rational;

@@ -9,7 +9,7 @@ use crate::derive::problem::ends::{Ends, TASK_NAME, proposed};
 use crate::derive::problem::formulate::formulated;
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::document::{
-    Document, TEXT_LIMIT, decode_xml, explained, is_stdin, is_xml, read_description, refuse_binary, text_of,
+    Document, TEXT_LIMIT, as_toml, decode_xml, explained, is_stdin, is_xml, read_description, refuse_binary, text_of,
 };
 use groebot_robot::kinematics::ideal::Report;
 use groebot_robot::kinematics::{Chain, DhTable, LinkPath, TipChoice};
@@ -87,7 +87,8 @@ impl InputFile {
     /// Meshes and files of coupled chains that standard input names are searched from the current folder. The content decides the type:
     /// * a robot: a file `.urdf`, `.xml`, `.xacro`, `.sdf` or `.mjcf`, text that starts with `<` (URDF, xacro, MJCF or SDF), or TOML with a `[[link]]`;
     /// * coupled chains: TOML with a `[[chain]]`;
-    /// * a DH table: TOML with a `[dh]`;
+    /// * a DH table: TOML with a `[dh]`, or CSV with the columns `a` and `alpha`;
+    /// * the calibration of an arm of Universal Robots: YAML with `kinematics`;
     /// * a chain: TOML with a `[tip]` or `[task]`;
     /// * a system: other TOML.
     ///
@@ -117,7 +118,7 @@ impl InputFile {
         let (text, notes) = if is_xml {
             decode_xml(&bytes).map(|decoded| (decoded.text, decoded.notes))
         } else {
-            text_of(bytes).map(|text| (text, Vec::new()))
+            text_of(bytes).and_then(as_toml).map(|text| (text, Vec::new()))
         }
         .map_err(at_file)?;
         let robot = || match xacro::is_xacro(&file, &text) {
