@@ -268,9 +268,9 @@ def positions(model, urdf, bodies, path, groebot, result):
 
 def tip(urdf, chain, link, asked, reached, path, groebot, result):
     """The poses of one tip link by `groebot fk`."""
-    names = [joint.get("name") for joint in chain if joint.find("mimic") is None]
-    if not names:
-        return
+    # A joint whose leader is not in the chain has its own value.
+    own = {joint.get("name") for joint in chain}
+    names = [joint.get("name") for joint in chain if joint.find("mimic") is None or joint.find("mimic").get("joint") not in own]
     table = io.StringIO()
     writer = csv.writer(table)
     writer.writerow(names)

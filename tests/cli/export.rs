@@ -33,7 +33,7 @@ fn a_robot_is_exported_and_walks_from_its_file() {
     assert_eq!(succeed(&["walk", text(&urdf), "--goal", "0.2,0.05,20"]), walk(&[]));
     let exported = succeed(&[&["export", text(&urdf), "--to", "mjcf"][..], &outline].concat());
     assert_eq!(exported.matches("type=\"box\" size=\"0.11 0.055 0.005\"").count(), 2, "{exported}");
-    assert!(refused(&["export", "teo", "--to", "x3d", "--left", "l_sole"]).contains("for urdf and mjcf"));
+    assert!(refused(&["export", "teo", "--to", "x3d", "--left", "l_sole"]).contains("for urdf, mjcf and sdf"));
 
     // The same soles as triangles of an STL file.
     let box_of = "<box size=\"0.24 0.14 0.01\"/>";
@@ -156,13 +156,16 @@ fn what_is_no_scene_is_refused() {
     check_message(&[&motion, "--to", "glb"], "motion.csv: its robot `somebody` is not a robot of groebot");
     check_message(&[&motion, "--robot", "nao", "--to", "x3d"], "no joint `lift`");
     check_message(&[&motion, "--robot", "c3po", "--to", "x3d"], "`c3po` is neither a file nor a robot of groebot");
-    check_message(&[&motion, "--to", "mjcf"], "motion.csv: urdf and mjcf describe a robot, not a motion or a scene");
-    check_message(&[text(&root(FIGURE)), "--to", "urdf"], "urdf and mjcf describe a robot");
+    check_message(
+        &[&motion, "--to", "mjcf"],
+        "motion.csv: urdf, mjcf and sdf describe a robot, not a motion or a scene",
+    );
+    check_message(&[text(&root(FIGURE)), "--to", "urdf"], "urdf, mjcf and sdf describe a robot");
     check_message(
         &[telescope, "--robot", "nao", "--to", "glb"],
         "--robot names the robot that moves, but this is not a motion",
     );
-    check_message(&[telescope, "--meshes", "--to", "urdf"], "leave them out for urdf and mjcf");
+    check_message(&[telescope, "--meshes", "--to", "urdf"], "leave them out for urdf, mjcf and sdf");
     check_message(
         &[&at("a.wrl", "#VRML V2.0 utf8\nSphere { }\n"), "--to", "glb"],
         "a.wrl: line 2: `Sphere` is not supported here",
@@ -181,6 +184,26 @@ fn what_is_no_scene_is_refused() {
     let ran = run(&["export", &motion, "--robot", &meshed, "--meshes", "--to", "glb", "-o", text(&out)]);
     assert!(ran.code == 0 && ran.err.starts_with("warning: the mesh `gone.stl` is not found"), "{}", ran.err);
     assert!(out.exists());
+}
+
+/// An MJCF and its export as SDF are robots for the other commands, and a solver's folder keeps an MJCF as URDF.
+#[test]
+fn mjcf_and_sdf_are_robots() {
+    let folder = tempdir().unwrap();
+    let [mjcf, sdf, out] = ["arm.xml", "arm.sdf", "arm"].map(|name| folder.path().join(name));
+    let arm = "<mujoco model='arm'><compiler angle='radian'/><worldbody><body name='upper' pos='0 0 0.1'>\
+        <joint name='a' axis='0 1 0' range='-1 1'/><geom size='0.1'/><body name='fore' pos='0 0 0.3'>\
+        <joint name='b' axis='0 1 0' range='-2 2'/><geom size='0.1'/><site name='tool' pos='0 0 0.2'/></body></body></worldbody></mujoco>";
+    fs::write(&mjcf, arm).unwrap();
+    succeed(&["export", text(&mjcf), "--to", "sdf", "-o", text(&sdf)]);
+    let pose = |file| succeed(&["fk", text(file), "--tip", "tool", "--q", "0.3,-0.3"]);
+    assert!(pose(&mjcf).contains("0.586600947"), "0.1 + 0.3 cos 0.3 + 0.2 above the floor: {}", pose(&mjcf));
+    assert_eq!(pose(&mjcf).lines().last(), pose(&sdf).lines().last());
+    assert!(succeed(&["info", text(&sdf)]).contains("world"));
+    let task = ["--task", "planar_position", "--plane", "xz"];
+    succeed(&[&["derive", text(&mjcf), "--tip", "tool", "--out", text(&out)][..], &task].concat());
+    assert!(fs::read_to_string(out.join("0_robot.urdf")).unwrap().contains("<robot name=\"arm\">"));
+    succeed(&["check", text(&out)]);
 }
 
 /// A damaged mesh is reported with its fault whenever it is omitted, also if nothing else is drawn.
