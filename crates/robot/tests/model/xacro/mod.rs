@@ -5,7 +5,8 @@ mod refusals;
 use std::fs;
 use std::path::Path;
 
-use groebot_robot::model::{ReadOptions, xacro};
+use groebot_robot::document::Document;
+use groebot_robot::model::{ReadOptions, Robot, xacro};
 use serde_json::Value;
 use tempfile::{TempDir, tempdir};
 
@@ -43,27 +44,27 @@ fn elements(text: &str) -> &str {
 #[test]
 fn cases_expand_as_by_the_package_xacro() {
     let expected: Value = serde_json::from_str(include_str!("expected.json")).unwrap();
-    let cases: toml::Table = include_str!("cases.toml").parse().unwrap();
-    let cases = cases["case"].as_array().unwrap();
+    let cases = Document::parse(include_str!("cases.toml")).unwrap();
+    let cases = cases.root().required("case").unwrap().tables().unwrap();
     assert_eq!(cases.len(), expected.as_object().unwrap().len());
     let mut wrong = Vec::new();
     for case in cases {
-        let [name, body] = ["name", "body"].map(|key| case[key].as_str().unwrap());
+        let [name, body] = ["name", "body"].map(|key| case.required(key).unwrap().text().unwrap());
         let folder = described(body);
-        let entries = |key: &str| case.get(key).and_then(toml::Value::as_table).cloned().unwrap_or_default();
-        for (file, text) in entries("files") {
-            write(folder.path(), &file, text.as_str().unwrap());
+        let entries = |key: &str| case.optional(key).map_or(Vec::new(), |node| node.table().unwrap().entries());
+        for file in entries("files") {
+            write(folder.path(), file.name(), file.text().unwrap());
         }
-        let options = ReadOptions::new();
-        let given = entries("arguments").into_iter();
-        let options = given.fold(options, |options, (name, value)| options.argument(name, value.as_str().unwrap()));
+        let options = entries("arguments")
+            .iter()
+            .fold(ReadOptions::new(), |options, given| options.argument(given.name(), given.text().unwrap()));
         let found = match expand(&folder, &options) {
             Ok(expanded) => elements(&expanded.text).to_owned(),
             Err(error) => format!("{:?}: {error}", error.kind()),
         };
         let is_right = match expected[name]["text"].as_str() {
             Some(text) => found == text,
-            None => case.get("kind").and_then(toml::Value::as_str).is_some_and(|kind| found.starts_with(kind)),
+            None => found.starts_with(case.required("kind").unwrap().text().unwrap()),
         };
         if !is_right {
             wrong.push(format!("{name}:\n{found}instead of\n{}", expected[name]));
@@ -80,14 +81,14 @@ fn robots_are_read_with_arguments() {
     let folder = described(body);
     let read = |tip| {
         let options = ReadOptions::new().argument("tip", tip);
-        groebot_robot::model::Robot::read_with(folder.path().join("robot.xacro"), &options)
+        Robot::read_with(folder.path().join("robot.xacro"), &options)
     };
     let robot = read("tool").unwrap();
     assert_eq!(robot.leaves(), ["tool"]);
     let fault = &robot.faults()[0].error;
     assert_eq!(fault.place().line, Some(3), "{fault}");
     assert!(fault.place().file.as_ref().unwrap().ends_with("robot.xacro"));
-    assert_eq!(robot.joints()[0].origin.placement.position[0].to_string(), "15000000000000001/50000000000000000");
+    assert_eq!(robot.joints()[0].origin.placement.origin[0].to_string(), "7500000000000001/25000000000000000");
     let twice = read("a").unwrap_err();
     assert_eq!(twice.place().line, Some(2), "{twice}");
 }
