@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 use std::path::PathBuf;
 
+use groebot_robot::Error;
 use groebot_robot::document::{Document, Table};
 use groebot_robot::kinematics::Chain;
 use groebot_robot::model::Robot;
@@ -21,14 +22,18 @@ fn text<'a>(entry: Table<'a>, key: &str) -> Option<&'a str> {
     entry.optional(key).map(|node| node.text().unwrap())
 }
 
-fn chain(entry: Table<'_>) -> Chain {
+/// The chain of an entry and the source of its file.
+fn chain(entry: Table<'_>) -> (Chain, Option<String>) {
     let name = text(entry, "name").unwrap();
     let file = text(entry, "file").map_or_else(|| format!("named/{name}.toml"), str::to_owned);
-    let chain = match text(entry, "base") {
-        Some(base) => Robot::from_toml(&read(&file)).and_then(|robot| robot.chain(Some(base), text(entry, "tip"))),
-        None => Chain::from_toml(&read(&file)),
+    let read = || match text(entry, "base") {
+        Some(base) => {
+            let robot = Robot::from_toml(&read(&file))?;
+            Ok((robot.chain(Some(base), text(entry, "tip"))?, robot.parts().source.clone()))
+        }
+        None => Chain::from_toml(&read(&file)).map(|chain| (chain.clone(), chain.parts().source.clone())),
     };
-    chain.unwrap_or_else(|error| panic!("{name}: {error}"))
+    read().unwrap_or_else(|error: Error| panic!("{name}: {error}"))
 }
 
 #[test]
@@ -38,7 +43,8 @@ fn every_entry_is_a_chain_with_a_source() {
     let entries = entries(&index);
     assert!(entries.len() >= 120, "{} robots", entries.len());
     for entry in entries {
-        assert!(chain(entry).parts().source.is_some(), "{:?}", text(entry, "name"));
+        let (chain, source) = chain(entry);
+        assert!(source.is_some() && !chain.joints().is_empty(), "{:?}", text(entry, "name"));
     }
 }
 
