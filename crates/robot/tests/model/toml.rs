@@ -51,7 +51,7 @@ fn angles_in_radians_are_those_of_a_urdf() {
         assert_eq!(read.joints()[0].origin, Robot::from_urdf(&urdf).unwrap().joints()[0].origin, "{rpy:?}");
     }
     let both = toml("{ rpy = [0, 0, 0.5], rpy_deg = [0, 0, 90] }").unwrap_err();
-    assert_eq!((both.kind(), both.line()), (ErrorKind::BadValue, Some(6)));
+    assert_eq!((both.kind(), both.place().line), (ErrorKind::BadValue, Some(7)));
 }
 
 /// A capsule between two points has its ends there, in any direction.
