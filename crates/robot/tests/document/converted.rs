@@ -33,8 +33,8 @@ fn a_table_in_csv_is_the_product_of_its_rows() {
         * row(q[5], 0.0, 0.0, 0.0);
     let found = chain.forward(&q).unwrap().to_homogeneous();
     assert!((found - expected).abs().max() < 1e-12, "{found}{expected}");
-    let limits = chain.joints()[5].limits.unwrap().map(f64::to_degrees);
-    assert!((limits[0] + 266.0).abs() < 1e-9 && (limits[1] - 266.0).abs() < 1e-9);
+    let (lower, upper) = chain.joints()[5].limits.unwrap();
+    assert!((lower.to_degrees() + 266.0).abs() < 1e-9 && (upper.to_degrees() - 266.0).abs() < 1e-9);
 }
 
 #[test]

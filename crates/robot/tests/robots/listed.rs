@@ -44,7 +44,7 @@ fn every_description_is_read() {
 fn limits_are_in_radians() {
     for chain in LISTED.iter().filter_map(|robot| robot.chain()) {
         for joint in chain.joints().iter().filter(|joint| joint.kind == JointKind::Revolute) {
-            let Some([lower, upper]) = joint.limits else { continue };
+            let Some((lower, upper)) = joint.limits else { continue };
             assert!(lower < upper && lower > -13.0 && upper < 13.0, "{}: {}", chain.name(), joint.name);
         }
     }
