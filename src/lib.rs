@@ -94,9 +94,13 @@ pub mod spatial {
 /// Robots as described: a tree of links and joints with masses, shapes and limits.
 pub mod model {
     pub use groebot_robot::model::{
-        Actuator, Fault, Joint, JointType, LengthUnit, Link, Mass, Meshes, Mimic, Origin, Part, Robot, RobotParts,
-        Shape, Solid, Surface,
+        Actuator, Fault, Joint, JointType, LengthUnit, Link, Mass, Meshes, Mimic, Origin, Part, ReadOptions, Robot,
+        RobotParts, Shape, Solid, Surface,
     };
+    /// Expansion of descriptions in xacro.
+    pub mod xacro {
+        pub use groebot_robot::model::xacro::{Expanded, expand};
+    }
 }
 
 /// Serial chains: forward kinematics, Jacobians, screw theory, and the interface of all solvers.
