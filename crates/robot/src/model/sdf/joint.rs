@@ -60,23 +60,32 @@ pub fn end<'e>(element: &'e Element, which: &str) -> Result<&'e str> {
     required_text(element, which)
 }
 
-/// Reads the joints with one degree of freedom of a joint. `own` is the joint's frame in the child link's, and
-/// `expressed` the frame of a name there. The axes are in the child link's frame.
+/// The model and the frame of a joint.
+pub struct Context<'a> {
+    /// The prefix of names in its model.
+    pub prefix: &'a str,
+    /// The version of the file.
+    pub version: (u32, u32),
+    /// The joint's frame in the child link's.
+    pub own: &'a Placement,
+}
+
+/// Reads the joints with one degree of freedom of a joint. `expressed` is the frame of a name in the
+/// child link's frame. The axes are in the child link's frame.
 ///
 /// # Errors
 /// [`ErrorKind::BadValue`] for wrong numbers and a zero axis; those of `expressed`.
 pub fn read(
     element: &Element,
-    (name, prefix): (&str, &str),
+    name: &str,
     kind: Kind,
-    version: (u32, u32),
-    own: &Placement,
+    context: &Context<'_>,
     expressed: impl Fn(&str) -> Result<Placement>,
 ) -> Result<Vec<Joint>> {
     let line = element.own_line();
     if kind == Kind::Ball {
         let hinge = |index: usize| {
-            let axis = own.rotation.turn(&vector::unit(index));
+            let axis = context.own.rotation.turn(&vector::unit(index));
             let name = format!("{name}_{}", ["x", "y", "z"][index]);
             Joint { axis, line, ..Joint::new(&name, JointType::Continuous, "", "") }
         };
@@ -89,7 +98,7 @@ pub fn read(
         let name = if kind == Kind::Two { format!("{name}_{which}") } else { name.to_owned() };
         let joint = Joint { line, ..Joint::new(&name, JointType::Continuous, "", "") };
         match element.child(which)? {
-            Some(axis) => read_axis(axis, joint, kind, (prefix, version), own, &expressed),
+            Some(axis) => read_axis(axis, joint, kind, context, &expressed),
             None => {
                 let text =
                     format!("has no <{which}>; a {} needs it", shown(element.attribute("type").unwrap_or("joint")));
@@ -104,11 +113,10 @@ fn read_axis(
     element: &Element,
     bare: Joint,
     kind: Kind,
-    (prefix, version): (&str, (u32, u32)),
-    own: &Placement,
+    context: &Context<'_>,
     expressed: &impl Fn(&str) -> Result<Placement>,
 ) -> Result<Joint> {
-    let axis = direction(element, version, own, expressed)?;
+    let axis = direction(element, context.version, context.own, expressed)?;
     let mut joint = Joint { axis, ..bare };
     let limit = element.child("limit")?;
     let value = |name: &str| limit.map_or(Ok(None), |limit| float(limit, name));
@@ -138,7 +146,7 @@ fn read_axis(
     if value("spring_stiffness")?.is_some_and(|stiffness| stiffness != 0.0) {
         joint.notes.push("its spring (spring_stiffness) is ignored".to_owned());
     }
-    joint.mimic = element.child("mimic")?.map(|mimic| read_mimic(mimic, prefix)).transpose()?;
+    joint.mimic = element.child("mimic")?.map(|mimic| read_mimic(mimic, context.prefix)).transpose()?;
     Ok(joint)
 }
 

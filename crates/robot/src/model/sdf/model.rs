@@ -190,7 +190,8 @@ impl Scope {
             let frame = if frame == MODEL { format!("{prefix}{MODEL}") } else { format!("{prefix}{frame}") };
             self.frames.between(&child, &frame, &at)
         };
-        let joints = joint::read(element, (name, prefix), kind, self.version, &own, expressed)?;
+        let context = joint::Context { prefix, version: self.version, own: &own };
+        let joints = joint::read(element, name, kind, &context, expressed)?;
         for joint in joints.iter().skip(1) {
             self.names.take_joint(&joint.name);
         }
