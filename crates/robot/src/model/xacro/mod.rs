@@ -40,6 +40,8 @@ use expand::Expander;
 use groebot_algebra::limits;
 use node::{Element, Location};
 
+/// Bytes of the stack of an expansion. [`limits::XACRO_DEPTH`] levels need a few megabytes without optimisation, more than the stack of other threads has.
+const STACK: usize = 64 << 20;
 /// The definitions of xacro, which alone change nothing.
 const DEFINITIONS: [&str; 2] = ["property", "arg"];
 
@@ -116,6 +118,15 @@ pub fn expand(path: &Path, options: &ReadOptions) -> Result<Expanded> {
 /// # Errors
 /// Those of [`expand`].
 pub fn expand_text(text: &str, path: &Path, options: &ReadOptions) -> Result<Expanded> {
+    std::thread::scope(|scope| {
+        let thread = std::thread::Builder::new().stack_size(STACK);
+        let thread = thread.spawn_scoped(scope, || expand_on_this_stack(text, path, options));
+        let thread = thread.map_err(|error| Error::io(path, &error))?;
+        thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+    })
+}
+
+fn expand_on_this_stack(text: &str, path: &Path, options: &ReadOptions) -> Result<Expanded> {
     let mut expander = Expander::new(path, options);
     let root = Element::parse(text, 0).map_err(|error| error.in_file(path))?;
     expander.budget.spend_file(text.len() as u64)?;
