@@ -34,7 +34,7 @@ A value outside its limits is reported, and is not an error.";
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// A mechanism's folder, or a file: chain.toml, DH table or URDF; `-` for standard input
+    /// A mechanism's folder, a file with a chain or a robot, or a robot's name; `-` for standard input
     #[arg(value_name = "DIR-or-FILE")]
     input: PathBuf,
     #[command(flatten)]

@@ -49,7 +49,7 @@ within the limits may exist (docs/redundant.md).";
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// A mechanism's folder, or an input file with a chain
+    /// A mechanism's folder, an input file with a chain, or a robot's name (`groebot robots`)
     #[arg(value_name = "DIR-or-FILE")]
     input: PathBuf,
     #[command(flatten)]

@@ -38,7 +38,7 @@ correlated in time.";
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// A robot by name, or a description in URDF or TOML
+    /// A robot by name, or a description in URDF, xacro, MJCF, SDF or TOML
     #[arg(value_name = "ROBOT-or-FILE")]
     robot: PathBuf,
     /// The log, CSV

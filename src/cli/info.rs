@@ -27,7 +27,7 @@ const EXAMPLES: &str = "Examples:
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// A mechanism's folder, or an input file; `-` for standard input
+    /// A mechanism's folder, an input file, or a robot's name (`groebot robots`); `-` for standard input
     #[arg(value_name = "DIR-or-FILE")]
     input: PathBuf,
     #[command(flatten)]

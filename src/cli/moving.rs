@@ -80,7 +80,7 @@ pub fn described(robot: &Path, options: &ReadOptions) -> Result<(Robot, Meshes)>
     match input.description {
         Description::Robot(read) => Ok((read, Meshes::beside_with(&input.path, options.clone()))),
         _ => {
-            let text = "this does not describe a robot with links; give one in URDF or TOML";
+            let text = "this does not describe a robot with links; give one in URDF, xacro, MJCF, SDF or TOML";
             Err(Error::new(ErrorKind::BadValue, text).in_file(robot))
         }
     }

@@ -57,7 +57,7 @@ The exit status is 5 if the robot falls; with --vary, if it falls in any run.";
 pub struct Arguments {
     /// The walk, CSV or JSON
     walk: PathBuf,
-    /// The robot: nao, rh0, teo, or a description in URDF or TOML [default: the one that the walk names]
+    /// The robot: nao, rh0, teo, or a description in URDF, xacro, MJCF, SDF or TOML [default: the one that the walk names]
     #[arg(long, value_name = "ROBOT-or-FILE")]
     model: Option<PathBuf>,
     #[command(flatten)]

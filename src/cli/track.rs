@@ -37,7 +37,7 @@ multiplied by 1 kg m^2.";
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// A robot by name, or a description in URDF or TOML
+    /// A robot by name, or a description in URDF, xacro, MJCF, SDF or TOML
     #[arg(value_name = "ROBOT-or-FILE")]
     robot: PathBuf,
     /// The control law

@@ -49,7 +49,7 @@ phases, its CSV does not.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// A walk or a task in CSV or JSON, a robot by name (`groebot robots`), a description in URDF or TOML, or the folder
+    /// A walk or a task in CSV or JSON, a robot by name (`groebot robots`), a description in URDF, xacro, MJCF, SDF or TOML, or the folder
     /// of a derivation
     #[arg(value_name = "WALK-or-ROBOT-or-DIR")]
     shown: PathBuf,

@@ -69,7 +69,7 @@ enum SoleName {
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// The robot: nao, rh0, teo, or a description in URDF or TOML
+    /// The robot: nao, rh0, teo, or a description in URDF, xacro, MJCF, SDF or TOML
     #[arg(value_name = "ROBOT-or-FILE")]
     robot: String,
     #[command(flatten)]

@@ -125,7 +125,7 @@ fn described(file: &Path, soles: &SoleArguments, watch: &Watch) -> Result<Named>
     let input = InputFile::read_with(file, &soles.options())?;
     let file = &input.path;
     let Description::Robot(robot) = input.description else {
-        let text = "this does not describe a robot with links; a walk needs one, in URDF or TOML";
+        let text = "this does not describe a robot with links; a walk needs one, in URDF, xacro, MJCF, SDF or TOML";
         return Err(Error::new(ErrorKind::BadValue, text).in_file(file));
     };
     let at_file = |error: Error| error.in_file(file);

@@ -55,7 +55,7 @@ again.";
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// A robot by name, or a description in URDF or TOML; with --symbolic also a chain or a mechanism's folder
+    /// A robot by name, or a description in URDF, xacro, MJCF, SDF or TOML; with --symbolic also a chain or a mechanism's folder
     #[arg(value_name = "ROBOT-or-FILE")]
     robot: PathBuf,
     /// The states, CSV; positions, velocities, accelerations, torques [rad, rad/s, rad/s^2, N m, or metres and newtons]

@@ -31,7 +31,7 @@ pub enum Description {
     Chain(Box<Chain>),
     /// Equations.
     System(System),
-    /// A robot with any number of chains: URDF or TOML.
+    /// A robot with any number of chains: URDF, xacro, MJCF, SDF or TOML.
     Robot(Robot),
     /// Chains that share actuators.
     Coupled(Box<CoupledChains>),
