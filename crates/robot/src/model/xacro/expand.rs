@@ -267,8 +267,10 @@ impl<'o> Expander<'o> {
         let mut inner = Output { takes_attributes: true, ..Output::default() };
         self.children(&element.children, scope, &mut inner)?;
         for (name, value) in inner.attributes {
-            attributes.retain(|(known, _)| *known != name);
-            attributes.push((name, value));
+            match attributes.iter_mut().find(|(known, _)| *known == name) {
+                Some((_, old)) => *old = value,
+                None => attributes.push((name, value)),
+            }
         }
         Ok(Element { name: element.name.clone(), attributes, children: inner.nodes, location: element.location })
     }
