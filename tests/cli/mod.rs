@@ -16,6 +16,7 @@ mod export;
 mod faults;
 mod fk;
 mod follow;
+mod formats;
 mod identify;
 mod ik;
 mod info;
