@@ -27,6 +27,7 @@ __all__ = [
     "_reach",
     "_reach_as",
     "_run",
+    "_solution",
     "derive",
     "navigate",
 ]
@@ -43,7 +44,8 @@ class _Se3(Protocol):
     @property
     def A(self) -> Any: ...
 
-_Target = npt.ArrayLike | _Matrix | _Se3 | tuple[npt.ArrayLike, _Matrix]
+_Target = npt.ArrayLike | _Matrix | _Se3 | tuple[npt.ArrayLike, npt.ArrayLike | _Matrix]
+_Given = npt.ArrayLike | Mapping[str, npt.ArrayLike]
 _Limits = npt.ArrayLike | bool | Mapping[str, npt.ArrayLike]
 _Criterion = Literal["margin", "relative_margin", "nearest", "manipulability", "change"]
 _PassedCriterion = tuple[str, list[float], list[float], int, float]
@@ -65,6 +67,7 @@ class Solution:
     def chosen(self) -> bool: ...
     @property
     def settled(self) -> bool: ...
+    def __array__(self, dtype: npt.DTypeLike | None = None, copy: bool | None = None) -> npt.NDArray[Any]: ...
 
 @final
 class Arc:
@@ -114,28 +117,43 @@ class Solver:
     def solutions(self) -> int | None: ...
     @property
     def compiled(self) -> bool: ...
+    @overload
     def solve(
         self,
         target: _Target,
         *,
         q0: npt.ArrayLike | None = None,
-        given: npt.ArrayLike | None = None,
+        given: _Given | None = None,
         limits: _Limits | None = None,
+        tolerance: float | None = None,
+        as_array: Literal[False] = False,
     ) -> list[Solution]: ...
+    @overload
+    def solve(
+        self,
+        target: _Target,
+        *,
+        q0: npt.ArrayLike | None = None,
+        given: _Given | None = None,
+        limits: _Limits | None = None,
+        tolerance: float | None = None,
+        as_array: Literal[True],
+    ) -> _Floats: ...
     def nearest(
         self,
         target: _Target,
         q0: npt.ArrayLike,
         *,
-        given: npt.ArrayLike | None = None,
+        given: _Given | None = None,
         limits: _Limits | None = None,
+        tolerance: float | None = None,
     ) -> Solution | None: ...
     @overload
     def solve_batch(
         self,
         targets: _Target,
         *,
-        given: npt.ArrayLike | None = None,
+        given: _Given | None = None,
         layout: Literal["ragged"] = "ragged",
         limits: _Limits | None = None,
         near: npt.ArrayLike | None = None,
@@ -143,13 +161,14 @@ class Solver:
         dtype: npt.DTypeLike | None = None,
         threads: int | None = None,
         strict: bool = False,
+        tolerance: float | None = None,
     ) -> Batch: ...
     @overload
     def solve_batch(
         self,
         targets: _Target,
         *,
-        given: npt.ArrayLike | None = None,
+        given: _Given | None = None,
         layout: Literal["padded"],
         limits: _Limits | None = None,
         near: npt.ArrayLike | None = None,
@@ -157,14 +176,16 @@ class Solver:
         dtype: npt.DTypeLike | None = None,
         threads: int | None = None,
         strict: bool = False,
+        tolerance: float | None = None,
     ) -> PaddedBatch: ...
     def closest(
         self,
         target: _Target,
         *,
         length: float | None = None,
-        given: npt.ArrayLike | None = None,
+        given: _Given | None = None,
         limits: _Limits | None = None,
+        tolerance: float | None = None,
     ) -> Closest: ...
     def forward(self, q: npt.ArrayLike) -> _Floats: ...
     def jacobian(self, q: npt.ArrayLike, frame: Literal["base", "tip", "spatial"] = "base") -> _Floats: ...
@@ -177,12 +198,20 @@ class Solver:
         times: npt.ArrayLike | None = None,
         speeds: npt.ArrayLike | None = None,
         limits: _Limits | None = None,
+        given: _Given | None = None,
+        tolerance: float | None = None,
     ) -> Path: ...
-    def any_within(self, target: _Target, *, limits: _Limits | None = None) -> Within: ...
+    def any_within(self, target: _Target, *, limits: _Limits | None = None, tolerance: float | None = None) -> Within: ...
     def any_within_batch(
-        self, targets: _Target, *, limits: _Limits | None = None, threads: int | None = None, strict: bool = False
+        self,
+        targets: _Target,
+        *,
+        limits: _Limits | None = None,
+        threads: int | None = None,
+        strict: bool = False,
+        tolerance: float | None = None,
     ) -> WithinBatch: ...
-    def arcs(self, target: _Target, *, limits: _Limits | None = None) -> Arcs: ...
+    def arcs(self, target: _Target, *, limits: _Limits | None = None, tolerance: float | None = None) -> Arcs: ...
     def best(
         self,
         target: _Target,
@@ -193,6 +222,7 @@ class Solver:
         joint: str | int | None = None,
         value: float | None = None,
         limits: _Limits | None = None,
+        tolerance: float | None = None,
     ) -> Best | None: ...
     def best_batch(
         self,
@@ -206,6 +236,7 @@ class Solver:
         limits: _Limits | None = None,
         threads: int | None = None,
         strict: bool = False,
+        tolerance: float | None = None,
     ) -> BestBatch: ...
     def optima(
         self,
@@ -217,8 +248,9 @@ class Solver:
         joint: str | int | None = None,
         value: float | None = None,
         limits: _Limits | None = None,
+        tolerance: float | None = None,
     ) -> list[Best]: ...
-    def placed(self, *, base: npt.ArrayLike | None = None, tool: npt.ArrayLike | None = None) -> PlacedSolver: ...
+    def placed(self, *, base: _Target | None = None, tool: _Target | None = None, tolerance: float | None = None) -> PlacedSolver: ...
     def check(self, *, progress: _Progress | None = None, threads: int | None = None) -> Check: ...
     def explain(self, *, progress: _Progress | None = None, threads: int | None = None) -> Explanation: ...
     def c_source(self, *, single: bool = False) -> str: ...
@@ -232,31 +264,56 @@ class PlacedSolver:
     @property
     def tool(self) -> _Floats: ...
     @property
+    def name(self) -> str: ...
+    @property
+    def task(self) -> str: ...
+    @property
     def joints(self) -> list[str]: ...
     @property
+    def inputs(self) -> list[str]: ...
+    @property
+    def given(self) -> list[str]: ...
+    @property
+    def limits(self) -> _Floats: ...
+    @property
     def is_redundant(self) -> bool: ...
+    @overload
     def solve(
         self,
         target: _Target,
         *,
         q0: npt.ArrayLike | None = None,
-        given: npt.ArrayLike | None = None,
+        given: _Given | None = None,
         limits: _Limits | None = None,
+        tolerance: float | None = None,
+        as_array: Literal[False] = False,
     ) -> list[Solution]: ...
+    @overload
+    def solve(
+        self,
+        target: _Target,
+        *,
+        q0: npt.ArrayLike | None = None,
+        given: _Given | None = None,
+        limits: _Limits | None = None,
+        tolerance: float | None = None,
+        as_array: Literal[True],
+    ) -> _Floats: ...
     def nearest(
         self,
         target: _Target,
         q0: npt.ArrayLike,
         *,
-        given: npt.ArrayLike | None = None,
+        given: _Given | None = None,
         limits: _Limits | None = None,
+        tolerance: float | None = None,
     ) -> Solution | None: ...
     @overload
     def solve_batch(
         self,
         targets: _Target,
         *,
-        given: npt.ArrayLike | None = None,
+        given: _Given | None = None,
         layout: Literal["ragged"] = "ragged",
         limits: _Limits | None = None,
         near: npt.ArrayLike | None = None,
@@ -264,13 +321,14 @@ class PlacedSolver:
         dtype: npt.DTypeLike | None = None,
         threads: int | None = None,
         strict: bool = False,
+        tolerance: float | None = None,
     ) -> Batch: ...
     @overload
     def solve_batch(
         self,
         targets: _Target,
         *,
-        given: npt.ArrayLike | None = None,
+        given: _Given | None = None,
         layout: Literal["padded"],
         limits: _Limits | None = None,
         near: npt.ArrayLike | None = None,
@@ -278,14 +336,16 @@ class PlacedSolver:
         dtype: npt.DTypeLike | None = None,
         threads: int | None = None,
         strict: bool = False,
+        tolerance: float | None = None,
     ) -> PaddedBatch: ...
     def closest(
         self,
         target: _Target,
         *,
         length: float | None = None,
-        given: npt.ArrayLike | None = None,
+        given: _Given | None = None,
         limits: _Limits | None = None,
+        tolerance: float | None = None,
     ) -> Closest: ...
     def forward(self, q: npt.ArrayLike) -> _Floats: ...
     def solve_path(
@@ -297,12 +357,20 @@ class PlacedSolver:
         times: npt.ArrayLike | None = None,
         speeds: npt.ArrayLike | None = None,
         limits: _Limits | None = None,
+        given: _Given | None = None,
+        tolerance: float | None = None,
     ) -> Path: ...
-    def any_within(self, target: _Target, *, limits: _Limits | None = None) -> Within: ...
+    def any_within(self, target: _Target, *, limits: _Limits | None = None, tolerance: float | None = None) -> Within: ...
     def any_within_batch(
-        self, targets: _Target, *, limits: _Limits | None = None, threads: int | None = None, strict: bool = False
+        self,
+        targets: _Target,
+        *,
+        limits: _Limits | None = None,
+        threads: int | None = None,
+        strict: bool = False,
+        tolerance: float | None = None,
     ) -> WithinBatch: ...
-    def arcs(self, target: _Target, *, limits: _Limits | None = None) -> Arcs: ...
+    def arcs(self, target: _Target, *, limits: _Limits | None = None, tolerance: float | None = None) -> Arcs: ...
     def best(
         self,
         target: _Target,
@@ -313,6 +381,7 @@ class PlacedSolver:
         joint: str | int | None = None,
         value: float | None = None,
         limits: _Limits | None = None,
+        tolerance: float | None = None,
     ) -> Best | None: ...
     def best_batch(
         self,
@@ -326,6 +395,7 @@ class PlacedSolver:
         limits: _Limits | None = None,
         threads: int | None = None,
         strict: bool = False,
+        tolerance: float | None = None,
     ) -> BestBatch: ...
     def optima(
         self,
@@ -337,6 +407,7 @@ class PlacedSolver:
         joint: str | int | None = None,
         value: float | None = None,
         limits: _Limits | None = None,
+        tolerance: float | None = None,
     ) -> list[Best]: ...
 
 @final
@@ -344,6 +415,15 @@ class Robot:
     @staticmethod
     def from_urdf(
         path_or_text: _File,
+        base: str | None = None,
+        tip: str | None = None,
+        *,
+        floating: bool = False,
+        gravity: npt.ArrayLike | None = None,
+    ) -> Robot: ...
+    @staticmethod
+    def load(
+        path: _File,
         base: str | None = None,
         tip: str | None = None,
         *,
@@ -364,6 +444,10 @@ class Robot:
     def name(self) -> str: ...
     @property
     def links(self) -> list[str]: ...
+    @property
+    def base(self) -> str: ...
+    @property
+    def tip(self) -> str | None: ...
     @property
     def tips(self) -> list[str]: ...
     @property
@@ -424,16 +508,16 @@ def navigate(
     progress: _Progress | None = None,
 ) -> Walk: ...
 def _run(arguments: Sequence[str]) -> int: ...
-def _any_within(solver: Solver | PlacedSolver, target: _Target, limits: _Limits | None) -> Within: ...
+def _any_within(solver: Solver | PlacedSolver, target: _Target, limits: _Limits | None, tolerance: float | None) -> Within: ...
 def _any_within_batch(
-    solver: Solver | PlacedSolver, targets: _Target, limits: _Limits | None, threads: int | None, strict: bool
+    solver: Solver | PlacedSolver, targets: _Target, limits: _Limits | None, threads: int | None, strict: bool, tolerance: float | None
 ) -> tuple[_Floats, npt.NDArray[np.uint8], npt.NDArray[np.uint32], npt.NDArray[np.bool_]]: ...
-def _arcs(solver: Solver | PlacedSolver, target: _Target, limits: _Limits | None) -> Arcs: ...
+def _arcs(solver: Solver | PlacedSolver, target: _Target, limits: _Limits | None, tolerance: float | None) -> Arcs: ...
 def _best(
-    solver: Solver | PlacedSolver, target: _Target, limits: _Limits | None, criterion: _PassedCriterion
+    solver: Solver | PlacedSolver, target: _Target, limits: _Limits | None, criterion: _PassedCriterion, tolerance: float | None
 ) -> Best | None: ...
 def _optima(
-    solver: Solver | PlacedSolver, target: _Target, limits: _Limits | None, criterion: _PassedCriterion
+    solver: Solver | PlacedSolver, target: _Target, limits: _Limits | None, criterion: _PassedCriterion, tolerance: float | None
 ) -> list[Best]: ...
 def _best_batch(
     solver: Solver | PlacedSolver,
@@ -442,6 +526,7 @@ def _best_batch(
     criterion: _PassedCriterion,
     threads: int | None,
     strict: bool,
+    tolerance: float | None,
 ) -> tuple[
     _Floats, npt.NDArray[np.uint8], npt.NDArray[np.uint32], npt.NDArray[np.bool_], _Floats, npt.NDArray[np.int64], _Floats
 ]: ...
@@ -460,3 +545,4 @@ def _reach(
     progress: _Progress | None,
 ) -> dict[str, Any]: ...
 def _reach_as(text: str, format: str, across: int | None = None) -> str: ...
+def _solution(q: Sequence[float], residual: float, branch: int, free: int, chosen: bool, settled: bool) -> Solution: ...
