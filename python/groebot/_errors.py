@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 
 import numpy as np
@@ -46,6 +47,10 @@ class FileError(GroebotError, OSError):
 
 class MissingFileError(FileError, FileNotFoundError):
     """A file that does not exist: a `FileNotFoundError`."""
+
+    def __init__(self, message: str, kind: str = "io", file: str | None = None, line: int | None = None) -> None:
+        super().__init__(message, kind, file, line)
+        self.errno = errno.ENOENT
 
 
 class NoPathError(GroebotError):

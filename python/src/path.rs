@@ -1,7 +1,7 @@
 //! Paths of an arm through poses: `Solver.solve_path`.
 
 use groebot::Watch;
-use groebot::kinematics::{InverseKinematics, Solution, Target};
+use groebot::kinematics::{Chain, InverseKinematics, Solution, Target};
 use groebot::motion::{Pace, PathRequest, follow};
 use groebot::solver::redundant::PathOptions;
 use groebot::spatial::Pose;
@@ -125,7 +125,7 @@ pub fn solve_path<'py>(
         ));
     }
     let stored = &*solver.0;
-    let chain = chain(stored)?;
+    let chain = with_constants(chain(stored)?)?;
     let poses = self::poses(stored, poses, wishes.tolerance)?;
     let Given { start, pace, speeds } = wishes.given(stored.program.joints.len())?;
     let given = GivenValues::new(stored, wishes.given, start.as_deref())?;
@@ -137,11 +137,16 @@ pub fn solve_path<'py>(
     let followed = watched(py, None, 1, |watch| {
         let request = PathRequest::new(&poses, &pace).speeds(&speeds);
         let request = start.as_deref().map_or(request, |start| request.start(start));
-        follow(chain, &solver, &request, watch)
+        follow(&chain, &solver, &request, watch)
     })?;
     let jumps: Vec<_> =
         followed.jumps.iter().map(|found| (found.sample, found.joint, found.step, found.why.as_str())).collect();
     made(py, &followed.trajectory.q, &jumps, (false, None))
+}
+
+/// The chain for paths on which the given joints are constant.
+fn with_constants(chain: &Chain) -> PyResult<Chain> {
+    chain.with_task(chain.task(), chain.direction().clone(), Vec::new()).map_err(|error| raised(&error))
 }
 
 /// The path of a redundant solver along arcs, also with scanned joints, as `groebot.Path`.

@@ -56,7 +56,7 @@ def test_a_rotation_within_the_tolerance_is_the_nearest_one(ur5, pose, size):
     assert np.abs(dh_forward(UR5_DH, found) - nearest(off)).max() < 1e-9
     assert np.array_equal(ur5.solve_batch(off[None], tolerance=0.1).q, found)
     near = ur5.nearest(off, Q, tolerance=0.1).q
-    assert np.array_equal(near, found[np.linalg.norm(found - Q, axis=1).argmin()])
+    assert np.allclose(near, found[np.linalg.norm(found - Q, axis=1).argmin()], atol=1e-9)
     assert np.allclose(ur5.solve_path(off[None], Q, tolerance=0.1).q[0], near)
     assert ur5.closest(off, tolerance=0.1).reachable
     assert np.allclose(ur5.placed(base=off, tolerance=0.1).base, nearest(off), atol=1e-12)
@@ -72,7 +72,7 @@ def test_exact_rotations_are_not_changed(ur5, pose):
 def test_one_rule_for_matrices_and_quaternions(ur5, pose, form):
     make = {"matrix": lambda size: spoiled(pose, size), "quaternion": lambda size: as_row(pose, 1 + 1.6 * size)}[form]
     assert len(ur5.solve(make(4e-6))) == 8
-    with pytest.raises(BadValueError, match=r"off by 1.6e-04, more than the tolerance 1e-5; `tolerance=1.\de-4` replaces it by the nearest") as raised:
+    with pytest.raises(BadValueError, match=r"off by 1.6e-4, more than the tolerance 1e-5; `tolerance=1.\de-4` replaces it by the nearest") as raised:
         ur5.solve(make(1e-4))
     value = float(str(raised.value).split("`tolerance=")[1].split("`")[0])
     assert len(ur5.solve(make(1e-4), tolerance=value)) == 8
