@@ -212,7 +212,7 @@ def read(path: Path) -> arrow.Table:
 
 def _is_whole(path: Path, rows: int) -> bool:
     try:
-        return read(path).num_rows == rows
+        return bool(read(path).num_rows == rows)
     except (OSError, arrow.ArrowException):
         return False
 
