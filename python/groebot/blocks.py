@@ -14,6 +14,7 @@ import contextlib
 import hashlib
 import json
 import os
+import re
 import socket
 import time
 import uuid
@@ -36,6 +37,9 @@ BLOCK = 1_000_000
 FORMAT = 2
 """The version number of the file format. Since 2, each page has a checksum."""
 _ASIDE = ".aside"
+_COLUMNS = b"groebot.columns"
+_DAMAGES = (OSError, arrow.ArrowException, ValueError)
+"""The errors that damaged files cause; `ValueError` for names that are not UTF-8."""
 _ABANDONED = 3600.0
 """Age of a temporary file that a living process has not changed [s]: a block takes seconds, and its file grows all the time."""
 
@@ -87,7 +91,8 @@ class Block:
         return marks is not None and self.marks(work).items() <= marks.items()
 
     def is_done(self, work: Work) -> bool:
-        """Whether the file exists, belongs to this work, and is undamaged: all its pages are read, and their checksums compared."""
+        """Whether the file exists, belongs to this work, and is undamaged: all its pages are read and their checksums compared, and its columns have the names
+        and types that were written."""
         return self.is_of(work) and _is_whole(self.path, self.stop - self.start)
 
     def write(self, work: Work) -> bool:
@@ -111,7 +116,7 @@ class Block:
     def _write(self, work: Work, path: Path) -> None:
         tables = work.tables(self.start, self.stop)
         first = next(tables)
-        schema = first.schema.with_metadata(self.marks(work))
+        schema = first.schema.with_metadata({**self.marks(work), _COLUMNS: _columns(first.schema)})
         # Snappy saves two bytes of five, and the time to write them to a disk. Dictionaries of joint values would be as long as the columns.
         with parquet.ParquetWriter(path, schema, compression="snappy", use_dictionary=False, write_page_checksum=True) as writer:
             for table in chain([first], tables):
@@ -210,15 +215,23 @@ def read(path: Path) -> arrow.Table:
         return file.read(use_threads=False)
 
 
+def _columns(schema: arrow.Schema) -> bytes:
+    """The hash of the names and types of the columns, which have no checksum of their own."""
+    # Versions of pyarrow name the values of lists differently.
+    text = "\n".join(f"{name}: {re.sub(r'(item|element): ', '', str(kind))}" for name, kind in zip(schema.names, schema.types))
+    return hashlib.sha256(text.encode()).hexdigest().encode()
+
+
 def _is_whole(path: Path, rows: int) -> bool:
     try:
-        return bool(read(path).num_rows == rows)
-    except (OSError, arrow.ArrowException):
+        table = read(path)
+        return bool(table.num_rows == rows and (table.schema.metadata or {}).get(_COLUMNS) == _columns(table.schema))
+    except _DAMAGES:
         return False
 
 
 def _marks(path: Path) -> dict[bytes, bytes] | None:
     try:
         return dict(parquet.read_schema(path).metadata or {})
-    except (OSError, arrow.ArrowInvalid):
+    except _DAMAGES:
         return None

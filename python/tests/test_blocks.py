@@ -175,9 +175,8 @@ def test_temporary_files_of_other_drivers_are_kept(tmp_path, ur5, source):
     assert all(other.exists() for other in others)
 
 
-def test_two_drivers_share_a_folder(tmp_path, ur5, poses, source, monkeypatch):
+def test_two_drivers_share_a_folder(tmp_path, ur5, source):
     """Both drivers end, and the files are those of one."""
-    monkeypatch.setattr("groebot.parquet.PIECE", 50)
     work, out, results = Solve.of(ur5, source), tmp_path / "out", []
     drivers = [threading.Thread(target=lambda: results.append(blocks.run(work, out, block=250))) for _ in range(3)]
     for driver in drivers:
@@ -189,23 +188,25 @@ def test_two_drivers_share_a_folder(tmp_path, ur5, poses, source, monkeypatch):
     assert contents(out) == contents(tmp_path / "alone")
 
 
-def test_a_flipped_bit_is_found_when_work_continues(tmp_path, ur5, source):
-    """No damaged number is kept: the block is computed again, or refused if its description is damaged."""
-    work, out = Solve.of(ur5, source), tmp_path / "out"
+def test_a_flipped_bit_is_found_when_work_continues(tmp_path, ur5, poses):
+    """No damaged number and no damaged name is kept: the block is computed again, or refused if its description is damaged. Statistics may stay damaged."""
+    few = in_columns(tmp_path / "few.parquet", ur5, rows_of(poses[:100]))
+    work, out = Solve.of(ur5, few), tmp_path / "out"
     (file,) = blocks.run(work, out).files
-    whole = file.read_bytes()
-    again = refused = 0
+    whole, wanted = file.read_bytes(), parquet.read_table(file)
+    again = refused = unread = 0
     for place in np.random.default_rng(3).integers(0, 8 * len(whole), 60):
         damaged = bytearray(whole)
         damaged[place // 8] ^= 1 << place % 8
         file.write_bytes(damaged)
         try:
-            again += blocks.run(work, out).written
-            assert file.read_bytes() == whole
+            written = blocks.run(work, out).written
+            again, unread = again + written, unread + 1 - written
+            assert parquet.read_table(file).equals(wanted) and (not written or file.read_bytes() == whole)
         except BadValueError:
             refused += 1
             file.unlink()
-    assert again + refused == 60 and again > 50
+    assert again + refused + unread == 60 and again > 40
 
 
 def test_a_block_that_cannot_be_written_leaves_nothing(tmp_path, ur5, source):
