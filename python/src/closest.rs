@@ -6,8 +6,9 @@ use pyo3::prelude::*;
 
 use crate::arrays;
 use crate::errors::raised;
+use crate::options::TargetOptions;
 use crate::redundant::{self, arm, lacks_given, one_target};
-use crate::solver::{Solver, TargetOptions};
+use crate::solver::Solver;
 use crate::stored::Stored;
 
 /// The closest joint values as a `groebot.Closest`.

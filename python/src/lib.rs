@@ -14,6 +14,7 @@ mod kernel;
 mod known;
 mod many;
 mod navigate;
+mod options;
 mod origin;
 mod path;
 mod placed;

@@ -13,12 +13,13 @@ use crate::batch::reason;
 use crate::errors::{bad_value, raised, unsupported};
 use crate::given::GivenValues;
 use crate::kernel::Answer;
+use crate::options::TargetOptions;
 use crate::placed::PlacedSolver;
 use crate::rotation;
 use crate::scanned::ScanQuestion;
 use crate::sink::Status;
 use crate::solution::{Solution, answers};
-use crate::solver::{Solver, TargetOptions};
+use crate::solver::Solver;
 use crate::stored::Stored;
 
 /// A criterion as `groebot._arms` passes it: its name, rows of joint values, weights, the index of a joint, and its value.

@@ -7,9 +7,10 @@ use pyo3::prelude::*;
 
 use crate::errors::raised;
 use crate::kernel::Answer;
+use crate::options::TargetOptions;
 use crate::redundant::{one_target, reason_of, row};
 use crate::solution::{Solution, answers};
-use crate::solver::{Solver, TargetOptions};
+use crate::solver::Solver;
 use crate::stored::Stored;
 
 /// A target of a solver with scanned joints, and the limits of its solutions.
