@@ -127,7 +127,6 @@ impl PlacedSolver {
 
     /// Same as `Solver.nearest`.
     #[pyo3(signature = (target, q0, *, given=None, limits=None, tolerance=None))]
-    #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn nearest(
         &self,
         py: Python<'_>,

@@ -184,7 +184,6 @@ impl Solver {
     /// `q0`, unless `given` has others. A redundant solver searches all arcs within the described limits; with `scanned` joints, completeness is that of the
     /// scan. Other arguments are those of `solve`.
     #[pyo3(signature = (target, q0, *, given=None, limits=None, tolerance=None))]
-    #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     pub fn nearest(
         &self,
         py: Python<'_>,
