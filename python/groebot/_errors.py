@@ -48,6 +48,8 @@ class FileError(GroebotError, OSError):
 class MissingFileError(FileError, FileNotFoundError):
     """A file that does not exist: a `FileNotFoundError`."""
 
+    errno: int | None
+
     def __init__(self, message: str, kind: str = "io", file: str | None = None, line: int | None = None) -> None:
         super().__init__(message, kind, file, line)
         self.errno = errno.ENOENT
