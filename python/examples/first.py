@@ -14,6 +14,7 @@ for solution in ur5.solve(pose):
 poses = ur5.forward(np.random.default_rng(1).uniform(-3, 3, (10_000, 6)))
 batch = ur5.solve_batch(poses)
 print(len(batch.q), "solutions of", len(batch), "poses; of row 7:", len(batch[7]))
+print("most solutions of a pose:", max(len(rows) for rows in batch), "; of the first hundred:", len(batch[:100].q))
 nearest = ur5.solve_batch(poses, near=np.zeros(6))
 print(f"nearest to zero: {nearest.q[0]}")
 

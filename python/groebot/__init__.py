@@ -8,7 +8,7 @@ pose of shape (4, 4) is that of the tip in the frame of the chain's base.
 from . import _arms
 from ._arms import ArcEnd, Arcs, Best, BestBatch, Reason, Solutions, Within, WithinBatch
 from ._batch import Batch, PaddedBatch, Status
-from ._errors import BadValueError, GroebotError, NoPathError
+from ._errors import BadValueError, FileError, GroebotError, MissingFileError, NoPathError
 from ._groebot import Arc, PlacedSolver, Robot, Solution, Solver, Stabilizer, __version__, derive, navigate
 from ._reach import ReachMap, reach_map
 from ._records import Check, Closest, Explanation, Jump, Path, Walk
@@ -25,8 +25,10 @@ __all__ = [
     "Check",
     "Closest",
     "Explanation",
+    "FileError",
     "GroebotError",
     "Jump",
+    "MissingFileError",
     "NoPathError",
     "PaddedBatch",
     "Path",

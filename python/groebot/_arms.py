@@ -164,15 +164,15 @@ class BestBatch(WithinBatch):
     """The distance from the start of the arc, (N,); NaN without a solution."""
 
 
-def any_within(self: Solver | PlacedSolver, target: _Target, *, limits: _Limits | None = None) -> Within:
+def any_within(self: Solver | PlacedSolver, target: _Target, *, limits: _Limits | None = None, tolerance: float | None = None) -> Within:
     """Returns one solution of a redundant solver within limits, by no criterion, or the reason why there is none.
 
     `target` is that of `solve`, without the value of the given joint. Solutions are within the described limits. `limits` can only narrow them: an array
     (joints, 2), or a dict of joint names and pairs. With scanned joints, completeness is that of the scan: 33 values of one joint are tried (132 of two, 528 of
-    three), then values next to solutions beyond limits. `BadValueError` for a wrong target or limits; an error of the kind `unsupported` for a solver that is
+    three), then values next to solutions beyond limits. `tolerance` is that of `solve`. `BadValueError` for a wrong target or limits; an error of the kind `unsupported` for a solver that is
     not redundant.
     """
-    return _any_within(self, target, limits)
+    return _any_within(self, target, limits, tolerance)
 
 
 def any_within_batch(
@@ -182,15 +182,16 @@ def any_within_batch(
     limits: _Limits | None = None,
     threads: int | None = None,
     strict: bool = False,
+    tolerance: float | None = None,
 ) -> WithinBatch:
     """Same as `any_within` for N targets, on all processors. Invalid targets are reported in `status`; with `strict` they raise an exception."""
-    return WithinBatch(*_any_within_batch(self, targets, limits, threads, strict), tuple(self.joints))
+    return WithinBatch(*_any_within_batch(self, targets, limits, threads, strict, tolerance), tuple(self.joints))
 
 
-def arcs(self: Solver | PlacedSolver, target: _Target, *, limits: _Limits | None = None) -> Arcs:
+def arcs(self: Solver | PlacedSolver, target: _Target, *, limits: _Limits | None = None, tolerance: float | None = None) -> Arcs:
     """Returns all arcs of solutions of a redundant solver within limits. Arguments and errors are those of `any_within`; an error of the kind `unsupported`
     with scanned joints."""
-    return _arcs(self, target, limits)
+    return _arcs(self, target, limits, tolerance)
 
 
 def best(
@@ -203,6 +204,7 @@ def best(
     joint: str | int | None = None,
     value: float | None = None,
     limits: _Limits | None = None,
+    tolerance: float | None = None,
 ) -> Best | None:
     """Returns the best solution of a redundant solver within limits; None if there is none.
 
@@ -212,7 +214,7 @@ def best(
     samples, refined by golden section search, and the manipulability is that of the other joints. Other arguments and errors are those of `any_within`.
     """
     options = {"q0": q0, "weights": weights, "joint": joint, "value": value}
-    return _best(self, target, limits, _passed(self.joints, criterion, options, False))
+    return _best(self, target, limits, _passed(self.joints, criterion, options, False), tolerance)
 
 
 def optima(
@@ -225,11 +227,12 @@ def optima(
     joint: str | int | None = None,
     value: float | None = None,
     limits: _Limits | None = None,
+    tolerance: float | None = None,
 ) -> list[Best]:
     """Returns the local optima on all arcs, ends included, the best ones first, at most 128. Arguments and errors are those of `best`; an error of the kind
     `unsupported` with scanned joints."""
     options = {"q0": q0, "weights": weights, "joint": joint, "value": value}
-    return _optima(self, target, limits, _passed(self.joints, criterion, options, False))
+    return _optima(self, target, limits, _passed(self.joints, criterion, options, False), tolerance)
 
 
 def best_batch(
@@ -244,12 +247,13 @@ def best_batch(
     limits: _Limits | None = None,
     threads: int | None = None,
     strict: bool = False,
+    tolerance: float | None = None,
 ) -> BestBatch:
     """Same as `best` for N targets, on all processors. `q0` has the shape (joints,) or (N, joints). Invalid targets are reported in `status`; with `strict`
     they raise an exception."""
     options = {"q0": q0, "weights": weights, "joint": joint, "value": value}
     passed = _passed(self.joints, criterion, options, True)
-    q, status, beyond, unsure, values, arc, s = _best_batch(self, targets, limits, passed, threads, strict)
+    q, status, beyond, unsure, values, arc, s = _best_batch(self, targets, limits, passed, threads, strict, tolerance)
     return BestBatch(q, status, beyond, unsure, tuple(self.joints), values, arc, s)
 
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import operator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import Any
+from typing import Any, SupportsIndex, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -59,12 +61,29 @@ class Batch:
     def __len__(self) -> int:
         return len(self.status)
 
-    def __getitem__(self, row: int) -> Floats:
-        """The joint values of a row, (solutions, joints)."""
+    def __iter__(self) -> Iterator[Floats]:
+        """The joint values of each row, (solutions, joints)."""
+        return (self[row] for row in range(len(self)))
+
+    @overload
+    def __getitem__(self, row: SupportsIndex) -> Floats: ...
+    @overload
+    def __getitem__(self, row: slice) -> Batch: ...
+    def __getitem__(self, row: SupportsIndex | slice) -> Floats | Batch:
+        """The joint values of a row, (solutions, joints); of a slice, the batch of its rows."""
+        if isinstance(row, slice):
+            return self._rows(np.arange(len(self))[row])
+        row = operator.index(row)
         if not -len(self) <= row < len(self):
             raise IndexError(f"row {row} of {len(self)}")
         row %= len(self)
         return self.q[self.starts[row] : self.starts[row + 1]]
+
+    def _rows(self, rows: npt.NDArray[np.int64]) -> Batch:
+        counts = self.counts[rows]
+        starts = np.concatenate([[0], np.cumsum(counts)]).astype(np.int64)
+        taken = np.repeat(self.starts[rows] - starts[:-1], counts) + np.arange(starts[-1])
+        return Batch(self.q[taken], starts, self.residual[taken], self.branch[taken], self.free[taken], self.status[rows], self.joints)
 
     @property
     def counts(self) -> npt.NDArray[np.int64]:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import errno
+import os
+
 import numpy as np
 import numpy.typing as npt
 
@@ -31,6 +34,27 @@ class BadValueError(GroebotError, ValueError):
     """A value, a name or a text that is not allowed."""
 
 
+class FileError(GroebotError, OSError):
+    """A file that cannot be read or written: an `OSError` with `filename`."""
+
+    def __init__(self, message: str, kind: str = "io", file: str | None = None, line: int | None = None) -> None:
+        super().__init__(message, kind, file, line)
+        self.filename = file
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
+class MissingFileError(FileError, FileNotFoundError):
+    """A file that does not exist: a `FileNotFoundError`."""
+
+    errno: int | None
+
+    def __init__(self, message: str, kind: str = "io", file: str | None = None, line: int | None = None) -> None:
+        super().__init__(message, kind, file, line)
+        self.errno = errno.ENOENT
+
+
 class NoPathError(GroebotError):
     """There is no path over a map: a body as wide as the robot's core cannot leave the cells of `enclosure`, (N, 2) \\[m\\]."""
 
@@ -48,5 +72,11 @@ _VALUES = {"bad_value", "syntax", "unknown_key", "missing_key", "duplicate_name"
 
 
 def of_kind(kind: str, message: str, file: str | None, line: int | None) -> GroebotError:
-    """The exception class of a kind."""
-    return (BadValueError if kind in _VALUES else GroebotError)(message, kind, file, line)
+    """The exception of a kind."""
+    return _class(kind, file)(message, kind, file, line)
+
+
+def _class(kind: str, file: str | None) -> type[GroebotError]:
+    if kind == "io":
+        return MissingFileError if file is not None and not os.path.lexists(file) else FileError
+    return BadValueError if kind in _VALUES else GroebotError

@@ -16,6 +16,7 @@ import numpy.typing as npt
 
 from ._arrays import plain_limits
 from ._errors import BadValueError
+from ._files import replacing
 from ._groebot import Solver, _reach, _reach_as
 from ._view import View, view
 
@@ -215,19 +216,25 @@ class ReachMap:
         return arrow.table(columns)
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Writes the map: `.json`, `.csv`, `.svg` (slices across z), `.npz` (all columns and axes) or `.parquet` (one row per grid point)."""
-        file = Path(path)
-        if file.suffix == ".npz":
+        """Writes the map: `.json`, `.csv`, `.svg` (slices across z), `.npz` (all columns and axes) or `.parquet` (one row per grid point). If that fails, such as
+        on a full disk, a file that existed before is unchanged."""
+        form = Path(path).suffix
+        if form not in (".json", ".csv", ".svg", ".npz", ".parquet"):
+            raise BadValueError(f"{path}: a map is written as .json, .csv, .svg, .npz or .parquet", "bad_value")
+        with replacing(path) as file:
+            self._write(file, form)
+
+    def _write(self, file: Path, form: str) -> None:
+        if form == ".npz":
             columns = {name: column for name in _COLUMNS if (column := getattr(self, name)) is not None}
-            np.savez_compressed(file, x=self.x, y=self.y, z=self.z, orientations=self.orientations, **columns)
-        elif file.suffix == ".parquet":
+            with open(file, "wb") as out:
+                np.savez_compressed(out, x=self.x, y=self.y, z=self.z, orientations=self.orientations, **columns)
+        elif form == ".parquet":
             import pyarrow.parquet as parquet
 
             parquet.write_table(self.table(), file)
-        elif file.suffix in (".json", ".csv", ".svg"):
-            file.write_text(_reach_as(self.to_json(), file.suffix[1:]), encoding="utf-8")
         else:
-            raise BadValueError(f"{file}: a map is written as .json, .csv, .svg, .npz or .parquet", "bad_value")
+            file.write_text(_reach_as(self.to_json(), form[1:]), encoding="utf-8")
 
     def slices(self, across: Literal["x", "y", "z"] | None = None) -> Picture:
         """Draws at most twelve slices across an axis. Their colour is the fraction of reached orientations, or the mean manipulability if measured."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ._groebot import Robot
+from ._groebot import PlacedSolver, Robot, Solver
 
 
 @dataclass(frozen=True)
@@ -119,3 +119,7 @@ class Walk:
 
 def _robot(text: str, base: str | None, tip: str | None, floating: bool, gravity: list[float]) -> Robot:
     return Robot.from_urdf(text, base, tip, floating=floating, gravity=gravity)
+
+
+def _placed(text: str, base: npt.NDArray[np.float64], tool: npt.NDArray[np.float64]) -> PlacedSolver:
+    return Solver.from_json(text).placed(base=base, tool=tool)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import glob
 import hashlib
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
@@ -142,12 +142,12 @@ class Solve(blocks.Work):
     ) -> Solve:
         """Builds the work for targets in parquet files, and checks it before it is sent to workers.
 
-        `columns` are by default those of the solver's inputs and given joints. `options` are `limits=`, `near=` (one for all), `given=` and `dtype=` of
-        `solve_batch`. Invalid targets are constant by their status.
+        `columns` are by default those of the solver's inputs and given joints. `options` are `limits=`, `near=` (one for all), `given=`, `dtype=`
+        and `tolerance=` of `solve_batch`. Invalid targets are reported by their status.
         """
-        unknown = set(options) - {"limits", "near", "given", "dtype"}
+        unknown = set(options) - {"limits", "near", "given", "dtype", "tolerance"}
         if unknown:
-            raise BadValueError(f"the option {min(unknown)} is not known; give limits, near, given or dtype", "bad_value")
+            raise BadValueError(f"the option {min(unknown)} is not known; give limits, near, given, dtype or tolerance", "bad_value")
         if not keep or (wrong := set(keep) - {*KEEP, "count"}):
             raise BadValueError(f"of a target there are {', '.join(KEEP)} and count; not {sorted(wrong) if keep else 'nothing'}", "bad_value")
         plain = {name: _plain(name, value) for name, value in options.items() if value is not None}
@@ -155,7 +155,7 @@ class Solve(blocks.Work):
         names = [name for name in solver.inputs if name not in constant] if columns is None else columns
         work = Solve(solver.to_json(), Targets.of(source, names), tuple(keep), plain, threads)
         if work.rows:
-            # Wrong shapes are constant here, not by a remote worker.
+            # Wrong shapes are reported here, not by a remote worker.
             next(work.solved(0, 1))
         return work
 
@@ -201,6 +201,8 @@ def _plain(name: str, value: Any) -> Any:
         return np.dtype(value).name
     if name == "limits":
         return plain_limits(value)
+    if name == "given" and isinstance(value, Mapping):
+        return {joint: float(number) for joint, number in value.items()}
     array = np.asarray(value, np.float64)
     if name in ("near", "given") and array.ndim != 1:
         raise BadValueError(f"{name} of shape {array.shape} is not one for all targets; give (joints,)", "bad_value")
@@ -232,7 +234,7 @@ def batches(out: str | os.PathLike[str]) -> Iterator[tuple[int, Batch]]:
 
 
 def _batch(path: Path) -> Batch:
-    table = parquet.read_table(path, use_threads=False)
+    table = blocks.read(path)
     joints = [name for name in table.column_names if name.startswith(_JOINT)]
     missing = {*KEEP[:1], *KEEP[2:]} - set(table.column_names)
     if missing or not joints:

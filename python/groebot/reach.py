@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 import pyarrow as arrow
-import pyarrow.parquet as parquet
 
 from . import blocks
 from ._groebot import Solver
@@ -52,7 +51,7 @@ class Reach(blocks.Work):
         of one block.
         """
         ask = requested(grid, orientations, measure, limits, given, seed)
-        # Errors are parameters here, not by a remote worker.
+        # Errors are reported here, not by a remote worker.
         ask.columns(solver, 0, 0, 1)
         return Reach(solver.to_json(), ask, threads)
 
@@ -85,7 +84,7 @@ def block(work: Reach, poses: int = blocks.BLOCK) -> int:
 def read(out: str | os.PathLike[str], work: Reach) -> ReachMap:
     """The map of a finished work. `BadValueError` as `groebot.blocks.finished`."""
     files = [path for _, path in blocks.finished(out, work)]
-    table = arrow.concat_tables(parquet.read_table(path, use_threads=False) for path in files)
+    table = arrow.concat_tables(blocks.read(path) for path in files)
     columns: dict[str, Any] = {name: table[name].to_numpy() for name in _COLUMNS if name in table.column_names}
     solver = _solver(work.solver)
     columns["orientations"] = work.ask.columns(solver, 0, 0, 1)["orientations"]

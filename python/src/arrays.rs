@@ -6,14 +6,15 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::errors::{bad_value, raised};
+use crate::given::{self, GivenValues};
 use crate::sink::Status;
 use crate::targets::{Form, Targets};
 
 /// Doubles in contiguous rows.
 pub struct Numbers<'py> {
     pub array: Bound<'py, PyArrayDyn<f64>>,
-    /// Whether they were converted from single precision.
-    pub single: bool,
+    /// The precision of rotations in an array of this type, if it is less than that of doubles; otherwise 0.
+    pub precision: f64,
 }
 
 impl<'py> Numbers<'py> {
@@ -25,10 +26,11 @@ impl<'py> Numbers<'py> {
         if let Ok(array) = object.cast::<PyArrayDyn<f64>>()
             && array.is_c_contiguous()
         {
-            return Ok(Numbers { array: array.clone(), single: false });
+            return Ok(Numbers { array: array.clone(), precision: 0.0 });
         }
-        let (array, single) = object.py().import("groebot._arrays")?.getattr("numbers")?.call1((object,))?.extract()?;
-        Ok(Numbers { array, single })
+        let (array, precision) =
+            object.py().import("groebot._arrays")?.getattr("numbers")?.call1((object,))?.extract()?;
+        Ok(Numbers { array, precision })
     }
 
     pub fn shape(&self) -> &[usize] {
@@ -55,16 +57,17 @@ pub struct TargetShape {
 }
 
 impl TargetShape {
-    /// The targets in an array of this shape, and whether it is a single target.
+    /// The targets in an array of this shape, and whether it is a single target. `names` are those of the given joints.
     ///
     /// # Errors
-    /// `BadValueError` with the allowed shapes.
+    /// `BadValueError` with the allowed shapes, and for another number of given values.
     pub fn targets<'a>(
         &self,
         shape: &[usize],
         data: &'a [f64],
-        given: Option<&'a [f64]>,
-        single: bool,
+        given: &'a GivenValues,
+        tolerance: f64,
+        names: impl Fn() -> Vec<String>,
     ) -> PyResult<(Targets<'a>, bool)> {
         let whole = self.own + self.given;
         let of_width = |width: usize, one: bool| {
@@ -88,19 +91,24 @@ impl TargetShape {
         };
         let (form, width, one) = found.ok_or_else(|| bad_value(self.refusal(shape)))?;
         let includes_given = form == Form::Numbers && width == whole;
-        let targets =
-            Targets { data, form, width, inputs: whole, rotation: self.rotation, given: &[], single, placement: None };
+        let targets = Targets {
+            data,
+            form,
+            width,
+            inputs: whole,
+            rotation: self.rotation,
+            given: &[],
+            tolerance,
+            placement: None,
+        };
         let expected = if includes_given { 0 } else { self.given };
-        let values = given.unwrap_or(&[]);
+        let values = given.values(expected > 0);
         if values.len() == expected || (expected > 0 && values.len() == expected * targets.len()) {
             return Ok((Targets { given: values, ..targets }, one));
         }
-        let text = format!(
-            "{} values of given joints for {} targets; give {expected} for all by `given=`, or as many for each",
-            values.len(),
-            targets.len()
-        );
-        Err(bad_value(text))
+        let names = names();
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        Err(given::refusal(&names, values.len(), expected, targets.len()))
     }
 
     fn refusal(&self, shape: &[usize]) -> String {

@@ -243,7 +243,7 @@ pub fn reason(status: u8) -> &'static str {
         (Status::NotFinite, "has a number that is infinite or none; give finite numbers"),
         (
             Status::NotRotation,
-            "has no rotation; give a right-handed rotation matrix within 1e-9, with last row 0, 0, 0, 1, or a quaternion x, y, z, w of length one",
+            "has no rotation; give a right-handed rotation matrix with last row 0, 0, 0, 1, or a quaternion x, y, z, w of length one, within `tolerance` (default 1e-5, at most 0.1)",
         ),
         (Status::NotUnit, "has a direction that is not of length one within 1e-9; give a unit vector"),
         (Status::Open, "is on a stratum that could not be derived"),

@@ -6,6 +6,7 @@ use pyo3::prelude::*;
 
 use crate::arrays;
 use crate::errors::raised;
+use crate::options::TargetOptions;
 use crate::redundant::{self, arm, lacks_given, one_target};
 use crate::solver::Solver;
 use crate::stored::Stored;
@@ -19,17 +20,16 @@ pub fn closest<'py>(
     solver: &Solver,
     target: &Bound<'py, PyAny>,
     length: Option<f64>,
-    given: Option<&Bound<'py, PyAny>>,
-    limits: Option<&Bound<'py, PyAny>>,
+    wanted: &TargetOptions<'_, 'py>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let stored = &solver.0;
-    if lacks_given(stored, target, given)? {
-        return made(py, stored, of_all_joints(py, solver, target, length, limits)?);
+    if lacks_given(stored, target, wanted.given)? {
+        return made(py, stored, of_all_joints(py, solver, target, length, wanted)?);
     }
-    let numbers = solver.one_target(target, given, None)?;
+    let numbers = solver.one_target(target, wanted, None, None)?;
     let mut options = ClosestOptions::default();
     options.length = length;
-    options.limits = solver.bounds(limits)?;
+    options.limits = solver.bounds(wanted.limits)?;
     let found = py.detach(|| match &stored.placement {
         None => stored.library().closest_numbers(&numbers, &options),
         Some(placement) => stored.library().placed(placement.placement())?.closest_numbers(&numbers, &options),
@@ -43,10 +43,10 @@ fn of_all_joints(
     solver: &Solver,
     target: &Bound<'_, PyAny>,
     length: Option<f64>,
-    limits: Option<&Bound<'_, PyAny>>,
+    wanted: &TargetOptions<'_, '_>,
 ) -> PyResult<Closest> {
-    let stored = &solver.0;
-    let target = one_target(stored, target)?;
+    let (stored, limits) = (&solver.0, wanted.limits);
+    let target = one_target(stored, target, wanted.tolerance)?;
     let mut weights = ErrorWeights::default();
     weights.length = length;
     if let Some(placement) = stored.placement.as_ref().filter(|_| stored.target_shape.is_pose) {

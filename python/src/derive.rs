@@ -40,7 +40,7 @@ pub fn derive(
     snap: Option<f64>,
     time: Option<f64>,
     progress: Option<&Bound<'_, PyAny>>,
-    threads: Option<usize>,
+    threads: Option<i64>,
 ) -> PyResult<Solver> {
     let options = TaskOptions {
         task,
@@ -60,7 +60,7 @@ pub fn derive(
         Err(_) => (Described::Path(robot.extract::<PathBuf>()?), Ends::default()),
     };
     options.put(&mut ends).map_err(|error| raised(&error))?;
-    let stored = watched(py, progress, threads_of(threads), |watch| {
+    let stored = watched(py, progress, threads_of(threads)?, |watch| {
         let watch = time.map_or_else(|| watch.clone(), |time| watch.clone().with_time(time));
         description.derived(&ends, &watch)
     })?;

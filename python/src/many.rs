@@ -8,9 +8,11 @@ use pyo3::prelude::*;
 use pyo3::types::{PySlice, PyTuple};
 
 use crate::arrays::{self, Numbers, finite, joint_rows, no_targets};
-use crate::batch::{Job, Room, reason, solve_all};
+use crate::batch::{Job, Room, solve_all};
 use crate::choose::Choice;
 use crate::errors::{bad_value, raised, unsupported};
+use crate::given::GivenValues;
+use crate::rotation;
 use crate::sink::Rows;
 use crate::stored::{Stored, chain};
 
@@ -22,6 +24,8 @@ pub struct Wanted<'a, 'py> {
     pub out: Option<&'a Bound<'py, PyAny>>,
     pub threads: usize,
     pub strict: bool,
+    /// Largest deviation of a rotation that is projected.
+    pub tolerance: Option<f64>,
 }
 
 /// Computes the arrays q, starts, residual, branch, free, status of all solutions.
@@ -36,20 +40,22 @@ pub fn solve_batch<'py>(
 ) -> PyResult<Bound<'py, PyTuple>> {
     let joints = stored.program.joints.len();
     let numbers = Numbers::of(targets)?;
-    let given = wanted.given.map(|given| Numbers::of(given)?.to_vec()).transpose()?;
+    let near = wanted.near.map(|near| reference(near, joints)).transpose()?;
+    let given = GivenValues::new(stored, wanted.given, near.as_deref())?;
+    let tolerance = rotation::tolerance(wanted.tolerance, numbers.precision)?;
     let borrowed = numbers.array.try_readonly()?;
-    let data = borrowed.as_slice()?;
-    let (rows, one) = stored.target_shape.targets(numbers.shape(), data, given.as_deref(), numbers.single)?;
+    let (data, names) = (borrowed.as_slice()?, || stored.given_names());
+    let (rows, one) = stored.target_shape.targets(numbers.shape(), data, &given, tolerance, names)?;
     let rows = rows.placed(stored.placement.as_ref());
     if one {
         return Err(bad_value("`targets` holds one target; use solve, or give it an axis more: targets[None]"));
     }
-    let near = wanted.near.map(|near| reference(near, joints, rows.len())).transpose()?;
+    check_rows(near.as_deref(), joints, rows.len())?;
     let choice = Choice { limits: wanted.limits, near: near.as_deref() };
     let job = Job { kernel: &*stored.kernel, targets: &rows, choice: &choice };
     let solved = solved(py, job, wanted)?;
     if wanted.strict {
-        refuse(solved.status.try_readonly()?.as_slice()?)?;
+        refuse(solved.status.try_readonly()?.as_slice()?, |row, status| rows.reason(row, status))?;
     }
     PyTuple::new(py, solved.arrays(py)?)
 }
@@ -124,7 +130,7 @@ impl<'py> Solved<'py> {
 
     /// q, starts, residual, branch, free, status without the unused rows.
     fn arrays(self, py: Python<'py>) -> PyResult<[Bound<'py, PyAny>; 6]> {
-        let front = PySlice::new(py, 0, self.answers as isize, 1);
+        let front = front(py, self.answers)?;
         // Arrays that are much too large are copied.
         let is_large = !self.is_lent && self.q.shape()[0] > 2 * self.answers + 64;
         let cut = |array: Bound<'py, PyAny>| {
@@ -142,6 +148,11 @@ impl<'py> Solved<'py> {
     }
 }
 
+/// The slice of the first rows. `PySlice::new` of PyO3 0.30 keeps the memory of its numbers for ever.
+pub fn front(py: Python<'_>, rows: usize) -> PyResult<Bound<'_, PyAny>> {
+    py.get_type::<PySlice>().call1((rows,))
+}
+
 /// A new, uninitialised numpy array.
 fn new<'py, A>(py: Python<'py>, shape: impl IntoPyObject<'py>, dtype: &str) -> PyResult<Bound<'py, A>>
 where
@@ -150,28 +161,32 @@ where
     Ok(py.import("numpy")?.getattr("empty")?.call1((shape, dtype))?.cast_into::<A>()?)
 }
 
-/// Fails if rows are invalid targets, with their indices.
-pub fn refuse(status: &[u8]) -> PyResult<()> {
+/// Fails if rows are invalid targets, with their indices and the reason of the first one.
+pub fn refuse(status: &[u8], reason: impl Fn(usize, u8) -> String) -> PyResult<()> {
     let (rows, count) = no_targets(status);
     let Some(first) = rows.first() else { return Ok(()) };
     let others = if count > 1 { format!("; {count} rows are not targets: {rows:?}") } else { String::new() };
     let more = if count > rows.len() { " and more" } else { "" };
-    Err(bad_value(format!("row {first} {}{others}{more}", reason(status[*first]))))
+    Err(bad_value(format!("row {first} {}{others}{more}", reason(*first, status[*first]))))
 }
 
-/// Reference joint values, one row for all targets or one for each.
-pub fn reference(near: &Bound<'_, PyAny>, joints: usize, targets: usize) -> PyResult<Vec<f64>> {
+/// Reference joint values: one row for all targets, or one for each.
+pub fn reference(near: &Bound<'_, PyAny>, joints: usize) -> PyResult<Vec<f64>> {
     let numbers = Numbers::of(near)?;
-    let one = joint_rows(&numbers, joints, "near")?;
-    if !one && numbers.shape()[0] != targets {
-        return Err(bad_value(format!(
-            "`near` has {} rows; give one, or one for each of {targets} targets",
-            numbers.shape()[0]
-        )));
-    }
+    joint_rows(&numbers, joints, "near")?;
     let list = numbers.to_vec()?;
     finite(&list, joints, "near")?;
     Ok(list)
+}
+
+/// Checks the number of rows of the reference joint values.
+pub fn check_rows(near: Option<&[f64]>, joints: usize, targets: usize) -> PyResult<()> {
+    match near.map(|near| near.len() / joints.max(1)) {
+        Some(rows) if rows != 1 && rows != targets => {
+            Err(bad_value(format!("`near` has {rows} rows; give one, or one for each of {targets} targets")))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// The caller's array for joint values.

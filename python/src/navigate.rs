@@ -42,7 +42,7 @@ pub fn navigate<'py>(
     let start = start.map(|(at, heading)| [at.x, at.y, heading.unwrap_or(0.0)]).or(default_start).unwrap_or_default();
     let (place, heading) = place("goal", &goal)?;
     let goal = Goal { place, heading };
-    let (pilot, found) = watched(py, progress, threads(None), |watch| {
+    let (pilot, found) = watched(py, progress, threads(None)?, |watch| {
         let pilot = pilot(robot, watch)?;
         let floor = Floor::new(&map, apart)?;
         let [x, y, yaw] = start;

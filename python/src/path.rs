@@ -1,7 +1,7 @@
 //! Paths of an arm through poses: `Solver.solve_path`.
 
 use groebot::Watch;
-use groebot::kinematics::{InverseKinematics, Solution, Target};
+use groebot::kinematics::{Chain, InverseKinematics, Solution, Target};
 use groebot::motion::{Pace, PathRequest, follow};
 use groebot::solver::redundant::PathOptions;
 use groebot::spatial::Pose;
@@ -10,38 +10,45 @@ use numpy::PyArrayMethods;
 use pyo3::prelude::*;
 use pyo3::types::PyList;
 
-use crate::arrays::{Numbers, finite, shaped};
+use crate::arrays::{Numbers, TargetShape, finite, shaped};
 use crate::batch::reason;
 use crate::errors::{bad_value, raised, unsupported};
+use crate::given::{self, GivenValues};
 use crate::redundant::{self, arm, joint_values, lacks_given};
+use crate::rotation;
 use crate::sink::Status;
 use crate::solver::Solver;
 use crate::stored::{Stored, chain};
 use crate::work::{threads, watched};
 
 /// A kernel as an [`InverseKinematics`] solver.
-struct ByKernel<'a>(&'a Stored);
+struct ByKernel<'a> {
+    stored: &'a Stored,
+    /// The constant values of the given joints.
+    given: &'a [f64],
+}
 
 impl std::fmt::Debug for ByKernel<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(&self.0.program.name)
+        f.write_str(&self.stored.program.name)
     }
 }
 
 impl InverseKinematics for ByKernel<'_> {
-    fn solve(&self, target: &Target, given: &[f64], out: &mut Vec<Solution>) -> groebot::Result<()> {
+    fn solve(&self, target: &Target, _: &[f64], out: &mut Vec<Solution>) -> groebot::Result<()> {
         out.clear();
-        self.0.kernel.solve(&self.0.program.numbers(target, given)?, &mut |answer| out.push(answer.into()))
+        let numbers = self.stored.program.numbers(target, self.given)?;
+        self.stored.kernel.solve(&numbers, &mut |answer| out.push(answer.into()))
     }
 
     fn nearest_to(
         &self,
         target: &Target,
-        given: &[f64],
+        _: &[f64],
         q0: &[f64],
         limits: &[[f64; 2]],
     ) -> groebot::Result<Option<Solution>> {
-        self.0.kernel.nearest_to(&self.0.program.numbers(target, given)?, q0, limits)
+        self.stored.kernel.nearest_to(&self.stored.program.numbers(target, self.given)?, q0, limits)
     }
 }
 
@@ -56,6 +63,10 @@ pub struct Wishes<'a, 'py> {
     /// The maximum velocity of each joint.
     pub speeds: Option<&'a Bound<'py, PyAny>>,
     pub limits: Option<&'a Bound<'py, PyAny>>,
+    /// The values of the given joints, by default those of `q0`.
+    pub given: Option<&'a Bound<'py, PyAny>>,
+    /// Largest deviation of a rotation that is projected.
+    pub tolerance: Option<f64>,
 }
 
 /// The options, converted.
@@ -105,7 +116,7 @@ pub fn solve_path<'py>(
     poses: &Bound<'py, PyAny>,
     wishes: &Wishes<'_, 'py>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    if lacks_given(&solver.0, poses, None)? {
+    if lacks_given(&solver.0, poses, wishes.given)? {
         return along_arcs(py, solver, poses, wishes);
     }
     if wishes.limits.is_some() {
@@ -114,18 +125,28 @@ pub fn solve_path<'py>(
         ));
     }
     let stored = &*solver.0;
-    let chain = chain(stored)?;
-    let poses = self::poses(stored, poses)?;
+    let chain = with_constants(chain(stored)?)?;
+    let poses = self::poses(stored, poses, wishes.tolerance)?;
     let Given { start, pace, speeds } = wishes.given(stored.program.joints.len())?;
-    let solver = ByKernel(stored);
-    let followed = watched(py, None, threads(Some(1)), |watch| {
+    let given = GivenValues::new(stored, wishes.given, start.as_deref())?;
+    let given = given.values(true);
+    if given.len() != stored.target_shape.given {
+        return Err(given::refusal(&stored.given(), given.len(), stored.target_shape.given, poses.len()));
+    }
+    let solver = ByKernel { stored, given };
+    let followed = watched(py, None, 1, |watch| {
         let request = PathRequest::new(&poses, &pace).speeds(&speeds);
         let request = start.as_deref().map_or(request, |start| request.start(start));
-        follow(chain, &solver, &request, watch)
+        follow(&chain, &solver, &request, watch)
     })?;
     let jumps: Vec<_> =
         followed.jumps.iter().map(|found| (found.sample, found.joint, found.step, found.why.as_str())).collect();
     made(py, &followed.trajectory.q, &jumps, (false, None))
+}
+
+/// The chain for paths on which the given joints are constant.
+fn with_constants(chain: &Chain) -> PyResult<Chain> {
+    chain.with_task(chain.task(), chain.direction().clone(), Vec::new()).map_err(|error| raised(&error))
 }
 
 /// The path of a redundant solver along arcs, also with scanned joints, as `groebot.Path`.
@@ -136,7 +157,7 @@ fn along_arcs<'py>(
     wishes: &Wishes<'_, 'py>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let stored = &*solver.0;
-    let (rows, one) = redundant::targets(stored, targets)?;
+    let (rows, one) = redundant::targets(stored, targets, wishes.tolerance)?;
     if one {
         return Err(bad_value("`poses` holds one pose; give it an axis more: poses[None]"));
     }
@@ -150,10 +171,10 @@ fn along_arcs<'py>(
     let (path, has_arcs) = if let Some(scan) = stored.scan() {
         let limits = solver.bounds(wishes.limits)?;
         let path = |watch: &Watch| scan.path(&targets, limits.as_deref(), &options, watch);
-        (watched(py, None, threads(None), path)?, false)
+        (watched(py, None, threads(None)?, path)?, false)
     } else {
         let (arm, options) = (arm(stored)?, options.limits(redundant::limits(solver, wishes.limits)?));
-        (watched(py, None, threads(Some(1)), |watch| arm.path(&targets, &options, watch))?, true)
+        (watched(py, None, 1, |watch| arm.path(&targets, &options, watch))?, true)
     };
     let jumps: Vec<_> =
         path.jumps.iter().map(|found| (found.sample, found.joint, found.step, found.why.as_str())).collect();
@@ -177,13 +198,18 @@ fn made<'py>(
 }
 
 /// Converts rows to poses.
-fn poses(stored: &Stored, poses: &Bound<'_, PyAny>) -> PyResult<Vec<Pose>> {
+fn poses(stored: &Stored, poses: &Bound<'_, PyAny>, tolerance: Option<f64>) -> PyResult<Vec<Pose>> {
     let numbers = Numbers::of(poses)?;
-    if !stored.target_shape.is_pose || stored.target_shape.given > 0 {
-        return Err(unsupported("a path is of poses, without given joints"));
+    if !stored.target_shape.is_pose {
+        return Err(unsupported(format!(
+            "a path is of poses; the task of this solver is {}",
+            stored.program.task_text()
+        )));
     }
+    let (shape, given) = (TargetShape { given: 0, ..stored.target_shape }, GivenValues::default());
+    let tolerance = rotation::tolerance(tolerance, numbers.precision)?;
     let borrowed = numbers.array.try_readonly()?;
-    let (targets, one) = stored.target_shape.targets(numbers.shape(), borrowed.as_slice()?, None, numbers.single)?;
+    let (targets, one) = shape.targets(numbers.shape(), borrowed.as_slice()?, &given, tolerance, Vec::new)?;
     let targets = targets.placed(stored.placement.as_ref());
     if one {
         return Err(bad_value("`poses` holds one pose; give it an axis more: poses[None]"));
@@ -192,7 +218,7 @@ fn poses(stored: &Stored, poses: &Bound<'_, PyAny>) -> PyResult<Vec<Pose>> {
     (0..targets.len())
         .map(|row| match targets.row(row, &mut out) {
             Status::Solved => pose(&out, row),
-            status => Err(bad_value(format!("row {row} {}", reason(status as u8)))),
+            status => Err(bad_value(format!("row {row} {}", targets.reason(row, status as u8)))),
         })
         .collect()
 }

@@ -40,7 +40,7 @@ pub fn reach<'py>(
     seed: Option<u64>,
     start: usize,
     stop: Option<usize>,
-    threads: Option<usize>,
+    threads: Option<i64>,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let stored = &solver.0;
@@ -60,7 +60,7 @@ pub fn reach<'py>(
     let solving = Solving(&*stored.kernel);
     let survey =
         Survey::new(&solving, &stored.program, stored.chain.as_ref(), &request).map_err(|error| raised(&error))?;
-    let entries = watched(py, progress, crate::work::threads(threads), |watch| survey.entries(start..stop, watch))?;
+    let entries = watched(py, progress, crate::work::threads(threads)?, |watch| survey.entries(start..stop, watch))?;
     let columns = PyDict::new(py);
     let wholes = |number: fn(&Entry) -> u32| PyArray1::from_iter(py, entries.iter().map(number));
     columns.set_item("orientations", survey.orientations())?;

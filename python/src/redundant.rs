@@ -11,11 +11,14 @@ use crate::arcs::Arc;
 use crate::arrays::{Numbers, TargetShape, finite, joint_rows, shaped};
 use crate::batch::reason;
 use crate::errors::{bad_value, raised, unsupported};
+use crate::given::GivenValues;
 use crate::kernel::Answer;
+use crate::options::TargetOptions;
 use crate::placed::PlacedSolver;
+use crate::rotation;
 use crate::scanned::ScanQuestion;
 use crate::sink::Status;
-use crate::solution::Solution;
+use crate::solution::{Solution, answers};
 use crate::solver::Solver;
 use crate::stored::Stored;
 
@@ -30,9 +33,9 @@ pub struct Question {
 }
 
 impl Question {
-    pub fn new(solver: &Solver, target: &Bound<'_, PyAny>, limits: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
-        let target = one_target(&solver.0, target)?;
-        let limits = self::limits(solver, limits)?;
+    pub fn new(solver: &Solver, target: &Bound<'_, PyAny>, options: &TargetOptions<'_, '_>) -> PyResult<Self> {
+        let target = one_target(&solver.0, target, options.tolerance)?;
+        let limits = self::limits(solver, options.limits)?;
         Ok(Question { stored: Shared::clone(&solver.0), target, limits })
     }
 
@@ -69,8 +72,8 @@ pub fn arm(stored: &Stored) -> PyResult<&RedundantSolver> {
 ///
 /// # Errors
 /// As [`targets`]; `BadValueError` for several targets and for numbers that are no target.
-pub fn one_target(stored: &Stored, target: &Bound<'_, PyAny>) -> PyResult<ArmTarget> {
-    let (rows, one) = targets(stored, target)?;
+pub fn one_target(stored: &Stored, target: &Bound<'_, PyAny>, tolerance: Option<f64>) -> PyResult<ArmTarget> {
+    let (rows, one) = targets(stored, target, tolerance)?;
     if !one {
         return Err(bad_value("`target` holds many targets; use the function for batches"));
     }
@@ -90,7 +93,11 @@ pub fn lacks_given(stored: &Stored, target: &Bound<'_, PyAny>, given: Option<&Bo
 ///
 /// # Errors
 /// `BadValueError` with the allowed shapes; an error of the kind `unsupported` for a solver that is not redundant.
-pub fn targets(stored: &Stored, object: &Bound<'_, PyAny>) -> PyResult<(Vec<Result<ArmTarget, Status>>, bool)> {
+pub fn targets(
+    stored: &Stored,
+    object: &Bound<'_, PyAny>,
+    tolerance: Option<f64>,
+) -> PyResult<(Vec<Result<ArmTarget, Status>>, bool)> {
     let scan = stored.scan();
     let arm = if scan.is_none() { Some(arm(stored)?) } else { None };
     let checked = |numbers: &[f64]| match (scan, arm) {
@@ -100,7 +107,8 @@ pub fn targets(stored: &Stored, object: &Bound<'_, PyAny>) -> PyResult<(Vec<Resu
     let numbers = Numbers::of(object)?;
     let shape = TargetShape { given: 0, ..stored.target_shape };
     let borrowed = numbers.array.try_readonly()?;
-    let (rows, one) = shape.targets(numbers.shape(), borrowed.as_slice()?, None, numbers.single)?;
+    let (given, tolerance) = (GivenValues::default(), rotation::tolerance(tolerance, numbers.precision)?);
+    let (rows, one) = shape.targets(numbers.shape(), borrowed.as_slice()?, &given, tolerance, Vec::new)?;
     let rows = rows.placed(stored.placement.as_ref());
     let mut out = vec![0.0; shape.own];
     let target = |row| match rows.row(row, &mut out) {
@@ -196,22 +204,25 @@ pub fn solve<'py>(
     solver: &Solver,
     target: &Bound<'py, PyAny>,
     q0: Option<&Bound<'py, PyAny>>,
-    limits: Option<&Bound<'py, PyAny>>,
-) -> PyResult<Bound<'py, PyList>> {
-    let q0 = q0.map(|q0| joint_values(q0, solver.0.program.joints.len(), "q0")).transpose()?;
-    if let Some(scan) = ScanQuestion::new(solver, target, limits)? {
-        return scan.solve(py, q0);
+    options: &TargetOptions<'_, 'py>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let joints = solver.0.program.joints.len();
+    let q0 = q0.map(|q0| joint_values(q0, joints, "q0")).transpose()?;
+    if let Some(scan) = ScanQuestion::new(solver, target, options)? {
+        return scan.solve(py, q0, options.as_array);
     }
-    let question = Question::new(solver, target, limits)?;
+    let question = Question::new(solver, target, options)?;
     let arm = question.arm()?;
     let criterion = q0.map_or(Criterion::Margin, Criterion::nearest);
     let found = py.detach(|| arm.best_by_arc(&question.target, &question.limits, &criterion));
     let found = found.map_err(|error| raised(&error))?;
     let solutions = found.best.iter().map(|best| question.solution(&best.q, best.arc, found.is_unsure));
-    let solutions = PyList::new(py, solutions.collect::<PyResult<Vec<_>>>()?)?;
+    let solutions = answers(py, solutions.collect::<PyResult<Vec<_>>>()?, joints, options.as_array)?;
+    if options.as_array {
+        return Ok(solutions);
+    }
     let reason = reason_of(py, &solver.0, found.absence.as_ref())?;
-    let made = py.import("groebot._arms")?.getattr("Solutions")?;
-    Ok(made.call1((solutions, reason, found.is_unsure))?.cast_into::<PyList>()?)
+    py.import("groebot._arms")?.getattr("Solutions")?.call1((solutions, reason, found.is_unsure))
 }
 
 /// The solution nearest to `q0` on all arcs.
@@ -223,12 +234,12 @@ pub fn nearest(
     solver: &Solver,
     target: &Bound<'_, PyAny>,
     q0: &[f64],
-    limits: Option<&Bound<'_, PyAny>>,
+    options: &TargetOptions<'_, '_>,
 ) -> PyResult<Option<Solution>> {
-    if let Some(scan) = ScanQuestion::new(solver, target, limits)? {
+    if let Some(scan) = ScanQuestion::new(solver, target, options)? {
         return scan.nearest(py, q0);
     }
-    let question = Question::new(solver, target, limits)?;
+    let question = Question::new(solver, target, options)?;
     let (arm, criterion) = (question.arm()?, Criterion::nearest(q0.to_vec()));
     let found = py.detach(|| arm.best_by_arc(&question.target, &question.limits, &criterion));
     let found = found.map_err(|error| raised(&error))?;
@@ -252,12 +263,13 @@ pub fn any_within<'py>(
     solver: &Bound<'py, PyAny>,
     target: &Bound<'py, PyAny>,
     limits: Option<&Bound<'py, PyAny>>,
+    tolerance: Option<f64>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let solver = solver_of(solver)?;
-    if let Some(scan) = ScanQuestion::new(&solver, target, limits)? {
+    let (solver, options) = (solver_of(solver)?, TargetOptions { limits, tolerance, ..TargetOptions::default() });
+    if let Some(scan) = ScanQuestion::new(&solver, target, &options)? {
         return scan.any_within(py);
     }
-    let question = Question::new(&solver, target, limits)?;
+    let question = Question::new(&solver, target, &options)?;
     let arm = question.arm()?;
     let found = py.detach(|| arm.any_within(&question.target, &question.limits)).map_err(|error| raised(&error))?;
     let q = found.q.map(|q| row(py, q)).transpose()?;
@@ -273,8 +285,10 @@ pub fn arcs<'py>(
     solver: &Bound<'py, PyAny>,
     target: &Bound<'py, PyAny>,
     limits: Option<&Bound<'py, PyAny>>,
+    tolerance: Option<f64>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let question = Shared::new(Question::new(&solver_of(solver)?, target, limits)?);
+    let options = TargetOptions { limits, tolerance, ..TargetOptions::default() };
+    let question = Shared::new(Question::new(&solver_of(solver)?, target, &options)?);
     let arm = question.arm()?;
     let found = py.detach(|| arm.arcs(&question.target, &question.limits)).map_err(|error| raised(&error))?;
     let arcs = found.arcs.into_iter().map(|arc| Bound::new(py, Arc::new(&question, arc)));
@@ -293,12 +307,14 @@ pub fn best<'py>(
     target: &Bound<'py, PyAny>,
     limits: Option<&Bound<'py, PyAny>>,
     criterion: PassedCriterion,
+    tolerance: Option<f64>,
 ) -> PyResult<Option<Bound<'py, PyAny>>> {
     let own = solver_of(solver)?;
-    if let Some(scan) = ScanQuestion::new(&own, target, limits)? {
+    let options = TargetOptions { limits, tolerance, ..TargetOptions::default() };
+    if let Some(scan) = ScanQuestion::new(&own, target, &options)? {
         return scan.best(py, &criteria(criterion, own.0.program.joints.len()).swap_remove(0));
     }
-    Ok(optima(py, solver, target, limits, criterion)?.iter().next())
+    Ok(optima(py, solver, target, limits, criterion, tolerance)?.iter().next())
 }
 
 /// The local optima on all arcs, each a `groebot.Best`, the best ones first.
@@ -310,8 +326,10 @@ pub fn optima<'py>(
     target: &Bound<'py, PyAny>,
     limits: Option<&Bound<'py, PyAny>>,
     criterion: PassedCriterion,
+    tolerance: Option<f64>,
 ) -> PyResult<Bound<'py, PyList>> {
-    let question = Question::new(&solver_of(solver)?, target, limits)?;
+    let options = TargetOptions { limits, tolerance, ..TargetOptions::default() };
+    let question = Question::new(&solver_of(solver)?, target, &options)?;
     let arm = question.arm()?;
     let criterion = criteria(criterion, arm.names().len()).swap_remove(0);
     let found = py.detach(|| arm.optima(&question.target, &question.limits, &criterion));

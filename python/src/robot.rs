@@ -61,6 +61,25 @@ impl Robot {
         Robot::of(robot, text, [base, tip], floating, gravity)
     }
 
+    /// Reads a file of any robot format: URDF, xacro, MJCF, SDF or TOML. The other arguments are those of `from_urdf`.
+    #[staticmethod]
+    #[pyo3(signature = (path, base=None, tip=None, *, floating=false, gravity=None))]
+    fn load(
+        path: PathBuf,
+        base: Option<String>,
+        tip: Option<String>,
+        floating: bool,
+        gravity: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        let robot = model::Robot::read(&path).map_err(|error| raised(&error))?;
+        // The text of a URDF is kept, with its line numbers, if it needs no expansion.
+        let is_urdf = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("urdf"));
+        let own = is_urdf.then(|| read_xml(&path, XML_BYTES)).transpose().map_err(|error| raised(&error))?;
+        let own = own.filter(|own| !own.text.contains("xacro"));
+        let text = own.map_or_else(|| robot.to_urdf(), |own| own.text);
+        Robot::of(robot, text, [base, tip], floating, gravity)
+    }
+
     /// Returns a robot by name, such as nao or ur10e.
     #[staticmethod]
     #[pyo3(signature = (name, base=None, tip=None, *, floating=false, gravity=None))]
@@ -114,10 +133,25 @@ impl Robot {
         self.robot.links().iter().map(|link| link.name.as_str()).collect()
     }
 
-    /// The names of the leaf links.
+    /// The base link of the chain that `derive` uses: `base`, by default the root.
     #[getter]
-    fn tips(&self) -> Vec<&str> {
-        self.robot.tips()
+    fn base(&self) -> &str {
+        self.base.as_deref().unwrap_or(self.robot.root())
+    }
+
+    /// The tip link of the chain that `derive` uses: `tip`, else the default. `None` if there is no default, because the robot has several tips.
+    #[getter]
+    fn tip(&self) -> Option<String> {
+        self.robot.path(self.base.as_deref(), self.tip.as_deref()).ok().map(|path| path.tip)
+    }
+
+    /// The possible tip links of a chain from `base`, the likeliest first: leaf links that move. If there is a default tip, it is the first one.
+    #[getter]
+    fn tips(&self) -> PyResult<Vec<String>> {
+        let base = self.link(self.base())?;
+        let default = self.robot.path(self.base.as_deref(), None).ok().map(|path| path.tip);
+        let others = self.robot.suggested_tips(base).into_iter().filter(|tip| Some(*tip) != default.as_deref());
+        Ok(default.iter().cloned().chain(others.map(str::to_owned)).collect())
     }
 
     /// The names of the independent joints, in the order of a configuration.

@@ -4,11 +4,12 @@ use groebot::solver::redundant::{Absence, ArmTarget, BestByArc, Criterion, Joint
 use groebot::{ErrorKind, Result};
 use numpy::{PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::{PySlice, PyTuple};
+use pyo3::types::PyTuple;
 
 use crate::arrays::shaped;
+use crate::batch::reason;
 use crate::errors::bad_value;
-use crate::many::{Wanted, reference, refuse, room};
+use crate::many::{Wanted, check_rows, front, reference, refuse, room};
 use crate::redundant::{PassedCriterion, arm, criteria, limits, narrowed, solver_of, status, targets};
 use crate::sink::Status;
 use crate::solver::Solver;
@@ -28,8 +29,14 @@ struct Rows<'a> {
 type Row<T> = (Status, Option<T>);
 
 impl<'a> Rows<'a> {
-    fn new(stored: &'a Stored, object: &Bound<'_, PyAny>, limits: JointLimits, threads: usize) -> PyResult<Self> {
-        let (rows, one) = targets(stored, object)?;
+    fn new(
+        stored: &'a Stored,
+        object: &Bound<'_, PyAny>,
+        limits: JointLimits,
+        threads: usize,
+        tolerance: Option<f64>,
+    ) -> PyResult<Self> {
+        let (rows, one) = targets(stored, object, tolerance)?;
         if one {
             return Err(bad_value("`targets` holds one target; give it an axis more: targets[None]"));
         }
@@ -47,7 +54,8 @@ impl<'a> Rows<'a> {
         };
         let rows: Vec<Row<T>> = self.rows.iter().map(row).collect();
         if is_strict {
-            refuse(&rows.iter().map(|(status, _)| *status as u8).collect::<Vec<_>>())?;
+            let status: Vec<u8> = rows.iter().map(|(status, _)| *status as u8).collect();
+            refuse(&status, |_, status| reason(status).to_owned())?;
         }
         Ok(rows)
     }
@@ -124,11 +132,12 @@ pub fn any_within_batch<'py>(
     solver: &Bound<'py, PyAny>,
     targets: &Bound<'py, PyAny>,
     limits: Option<&Bound<'py, PyAny>>,
-    threads: Option<usize>,
+    threads: Option<i64>,
     strict: bool,
+    tolerance: Option<f64>,
 ) -> PyResult<Bound<'py, PyTuple>> {
     let solver = solver_of(solver)?;
-    let rows = Rows::new(&solver.0, targets, self::limits(&solver, limits)?, self::threads(threads))?;
+    let rows = Rows::new(&solver.0, targets, self::limits(&solver, limits)?, self::threads(threads)?, tolerance)?;
     let (arm, valid) = (arm(&solver.0)?, rows.valid());
     let found = watched(py, None, rows.threads, |watch| arm.any_within_batch(&valid, &rows.limits, watch))?;
     let mut columns = Columns::default();
@@ -144,17 +153,19 @@ pub fn any_within_batch<'py>(
 /// The best solution of each target: the arrays q, status, beyond, unsure, value, arc, s.
 #[pyfunction]
 #[pyo3(name = "_best_batch")]
+#[expect(clippy::too_many_arguments, reason = "the package calls it with all of them")]
 pub fn best_batch<'py>(
     py: Python<'py>,
     solver: &Bound<'py, PyAny>,
     targets: &Bound<'py, PyAny>,
     limits: Option<&Bound<'py, PyAny>>,
     criterion: PassedCriterion,
-    threads: Option<usize>,
+    threads: Option<i64>,
     strict: bool,
+    tolerance: Option<f64>,
 ) -> PyResult<Bound<'py, PyTuple>> {
     let solver = solver_of(solver)?;
-    let rows = Rows::new(&solver.0, targets, self::limits(&solver, limits)?, self::threads(threads))?;
+    let rows = Rows::new(&solver.0, targets, self::limits(&solver, limits)?, self::threads(threads)?, tolerance)?;
     let criteria = criteria(criterion, rows.joints());
     if criteria.len() != 1 && criteria.len() != rows.rows.len() {
         let text =
@@ -193,8 +204,9 @@ pub fn solve_batch<'py>(
     wanted: &Wanted<'_, 'py>,
 ) -> PyResult<Bound<'py, PyTuple>> {
     let stored = &*solver.0;
-    let rows = Rows::new(stored, targets, narrowed(stored, wanted.limits)?, wanted.threads)?;
-    let near = wanted.near.map(|near| reference(near, rows.joints(), rows.rows.len())).transpose()?;
+    let rows = Rows::new(stored, targets, narrowed(stored, wanted.limits)?, wanted.threads, wanted.tolerance)?;
+    let near = wanted.near.map(|near| reference(near, rows.joints())).transpose()?;
+    check_rows(near.as_deref(), rows.joints(), rows.rows.len())?;
     let criteria = near.as_ref().map_or(vec![Criterion::Margin], |near| {
         near.chunks(rows.joints()).map(|q0| Criterion::nearest(q0.to_vec())).collect()
     });
@@ -246,5 +258,5 @@ fn filled<'py>(
         return Err(bad_value(format!("`out` has too few rows for {rows} solutions")));
     }
     out.try_readwrite()?.as_slice_mut()?[..q.len()].copy_from_slice(&q);
-    out.into_any().get_item(PySlice::new(py, 0, rows as isize, 1))
+    out.into_any().get_item(front(py, rows)?)
 }

@@ -4,12 +4,12 @@ use std::sync::Arc as Shared;
 
 use groebot::solver::redundant::{ArmTarget, Criterion, Scanned, ScanningSolver};
 use pyo3::prelude::*;
-use pyo3::types::PyList;
 
 use crate::errors::raised;
 use crate::kernel::Answer;
+use crate::options::TargetOptions;
 use crate::redundant::{one_target, reason_of, row};
-use crate::solution::Solution;
+use crate::solution::{Solution, answers};
 use crate::solver::Solver;
 use crate::stored::Stored;
 
@@ -29,11 +29,11 @@ impl<'a> ScanQuestion<'a> {
     pub fn new(
         solver: &'a Solver,
         target: &Bound<'_, PyAny>,
-        limits: Option<&Bound<'_, PyAny>>,
+        options: &TargetOptions<'_, '_>,
     ) -> PyResult<Option<Self>> {
         let Some(scan) = solver.0.scan() else { return Ok(None) };
-        let target = one_target(&solver.0, target)?;
-        Ok(Some(ScanQuestion { stored: &solver.0, scan, target, limits: solver.bounds(limits)? }))
+        let target = one_target(&solver.0, target, options.tolerance)?;
+        Ok(Some(ScanQuestion { stored: &solver.0, scan, target, limits: solver.bounds(options.limits)? }))
     }
 
     /// The best solution by a criterion.
@@ -47,13 +47,16 @@ impl<'a> ScanQuestion<'a> {
         Answer { q, residual, branch: 0, free: 0, chosen: true, settled: true }.into()
     }
 
-    /// The solution with the largest margin, or the nearest to `q0`, as `groebot.Solutions`.
-    pub fn solve<'py>(&self, py: Python<'py>, q0: Option<Vec<f64>>) -> PyResult<Bound<'py, PyList>> {
+    /// The solution with the largest margin, or the nearest to `q0`, as `groebot.Solutions` or an array.
+    pub fn solve<'py>(&self, py: Python<'py>, q0: Option<Vec<f64>>, as_array: bool) -> PyResult<Bound<'py, PyAny>> {
         let found = self.found(py, &q0.map_or(Criterion::Margin, Criterion::nearest))?;
-        let solutions = PyList::new(py, found.q.iter().map(|q| self.solution(q)))?;
+        let solutions = found.q.iter().map(|q| self.solution(q)).collect();
+        let solutions = answers(py, solutions, self.stored.program.joints.len(), as_array)?;
+        if as_array {
+            return Ok(solutions);
+        }
         let reason = reason_of(py, self.stored, found.absence.as_ref())?;
-        let made = py.import("groebot._arms")?.getattr("Solutions")?;
-        Ok(made.call1((solutions, reason, true))?.cast_into::<PyList>()?)
+        py.import("groebot._arms")?.getattr("Solutions")?.call1((solutions, reason, true))
     }
 
     /// The solution nearest to `q0`.

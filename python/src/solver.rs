@@ -6,21 +6,20 @@ use std::sync::Arc;
 use groebot::codegen::{rust, single_file};
 use groebot::derive::report::explain::explain;
 use groebot::robots::{Kind, LISTED, Listed};
-use groebot::solver::TaskPlacement;
-use numpy::PyArrayMethods;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList, PyTuple};
+use pyo3::types::PyTuple;
 
-use crate::arrays::{self, Numbers};
+use crate::arrays;
 use crate::choose::nearest_first;
 use crate::closest;
-use crate::errors::{bad_value, raised};
+use crate::errors::raised;
 use crate::kernel::Answer;
 use crate::many::{self, Wanted};
+use crate::options::TargetOptions;
 use crate::path::Wishes;
 use crate::placed::PlacedSolver;
 use crate::redundant::joint_values;
-use crate::solution::Solution;
+use crate::solution::{Solution, answers};
 use crate::stored::Stored;
 use crate::work::{threads as threads_of, watched};
 use crate::{known, origin, path, redundant, rows, work};
@@ -42,7 +41,7 @@ impl Solver {
         if let Some(known) = known::by_name(name) {
             return Stored::known(known).map(Solver::of).map_err(|error| raised(&error));
         }
-        watched(py, progress, threads_of(None), |watch| Stored::cached(name, watch)).map(Solver::of)
+        watched(py, progress, threads_of(None)?, |watch| Stored::cached(name, watch)).map(Solver::of)
     }
 
     /// The names of solvers: those that are compiled into the package, then those of other robots by name, unless `compiled`.
@@ -68,7 +67,7 @@ impl Solver {
     }
 
     /// Converts the solver and its description to JSON.
-    fn to_json(&self) -> String {
+    pub fn to_json(&self) -> String {
         self.0.to_json()
     }
 
@@ -82,13 +81,13 @@ impl Solver {
 
     /// The name of the mechanism.
     #[getter]
-    fn name(&self) -> &str {
+    pub fn name(&self) -> &str {
         &self.0.program.name
     }
 
     /// The task of the tip: `pose`, `position`, `ray of [1, 0, 0]`, `pose, A3 given`, ...
     #[getter]
-    fn task(&self) -> String {
+    pub fn task(&self) -> String {
         self.0.program.task_text()
     }
 
@@ -100,14 +99,14 @@ impl Solver {
 
     /// The names of a target's numbers, in order.
     #[getter]
-    fn inputs(&self) -> Vec<String> {
+    pub fn inputs(&self) -> Vec<String> {
         self.0.program.inputs.iter().map(|input| input.name.clone()).collect()
     }
 
     /// The names of the joints whose values are given with each target.
     #[getter]
-    fn given(&self) -> Vec<String> {
-        self.0.given().into_iter().map(str::to_owned).collect()
+    pub fn given(&self) -> Vec<String> {
+        self.0.given_names()
     }
 
     /// `m` or `mm`.
@@ -118,7 +117,7 @@ impl Solver {
 
     /// The limits of each joint in the description, infinite where there are none: shape (joints, 2).
     #[getter]
-    fn limits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+    pub fn limits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let limits = self.0.program.limits();
         arrays::shaped(py, limits.concat(), &[limits.len(), 2])
     }
@@ -151,15 +150,21 @@ impl Solver {
 
     /// Returns all solutions of one target, sorted by branch; an empty list if the target is out of reach.
     ///
-    /// `target` is a matrix (4, 4), 12 numbers (position, rotation by rows), 7 numbers (position, quaternion x, y, z, w), or a pose of scipy or spatialmath.
-    /// For other tasks it is the numbers of `inputs`. `given` are the values of the given joints. With `limits`, only solutions are returned that are within
-    /// them after whole turns. `limits` has the shape (joints, 2), or is `True` for those of the description, or a dict of joint names and pairs, which replace
-    /// those of the description. With `q0` (joints,), each angle is moved by whole turns to the nearest value, and the nearest solution is the first one.
+    /// `target` is a matrix (4, 4), 12 numbers (position, rotation by rows), 7 numbers (position, quaternion x, y, z, w), a pair of a position and a rotation
+    /// (a matrix, a quaternion, or scipy's), or a pose of scipy or spatialmath. For other tasks it is the numbers of `inputs`. With `limits`, only solutions are
+    /// returned that are within them after whole turns. `limits` has the shape (joints, 2), or is `True` for those of the description, or a dict of joint names
+    /// and pairs, which replace those of the description. With `q0` (joints,), each angle is moved by whole turns to the nearest value, and the nearest solution
+    /// is the first one. With `as_array`, the joint values are returned as an array (solutions, joints).
+    ///
+    /// `given` are the values of the given joints: numbers in the order of `Solver.given`, or a dict of joint names and values. By default they are those of
+    /// `q0`. `tolerance` is the largest deviation of a rotation, by default 1e-5: the largest entry of R^T R - 1, or the difference of a quaternion's length from
+    /// one. A rotation within it is replaced by the nearest one. Arrays of float16 have a greater default.
     ///
     /// A redundant solver returns the best solution of each arc within the described limits as `groebot.Solutions`: by the margin to the limits, with `q0` by
     /// the distance to it. `limits` can only narrow the described ones. Without a solution, the list is empty and has a `reason`. With `scanned` joints, the
     /// list has the best solution of the scan only, which misses narrow ranges of solutions.
-    #[pyo3(signature = (target, *, q0=None, given=None, limits=None))]
+    #[pyo3(signature = (target, *, q0=None, given=None, limits=None, tolerance=None, as_array=false))]
+    #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     pub fn solve<'py>(
         &self,
         py: Python<'py>,
@@ -167,23 +172,28 @@ impl Solver {
         q0: Option<&Bound<'py, PyAny>>,
         given: Option<&Bound<'py, PyAny>>,
         limits: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Bound<'py, PyList>> {
+        tolerance: Option<f64>,
+        as_array: bool,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let options = TargetOptions { given, limits, tolerance, as_array };
         if redundant::lacks_given(&self.0, target, given)? {
-            return redundant::solve(py, self, target, q0, limits);
+            return redundant::solve(py, self, target, q0, &options);
         }
-        let limits = self.bounds(limits)?;
-        let mut found = self.found(target, given, limits.as_deref())?;
-        if let Some(q0) = q0 {
-            let turns = &self.0.kernel.shape().turns;
-            nearest_first(turns, &joint_values(q0, turns.len(), "q0")?, limits.as_deref(), &mut found);
+        let turns = &self.0.kernel.shape().turns;
+        let q0 = q0.map(|q0| joint_values(q0, turns.len(), "q0")).transpose()?;
+        let bounds = self.bounds(limits)?;
+        let mut found = self.found(target, &options, q0.as_deref(), bounds.as_deref())?;
+        if let Some(q0) = &q0 {
+            nearest_first(turns, q0, bounds.as_deref(), &mut found);
         }
-        PyList::new(py, found.into_iter().map(|answer| Bound::new(py, answer)).collect::<PyResult<Vec<_>>>()?)
+        answers(py, found, turns.len(), as_array)
     }
 
     /// Returns the solution of one target that is nearest to the joint values `q0` after whole turns, within `limits` if these are given. `None` if there is
-    /// none. Its angles are not wrapped. At a singular target the whole self-motion is searched, not only its listed member. A redundant solver searches all arcs
-    /// within the described limits; with `scanned` joints, completeness is that of the scan.
-    #[pyo3(signature = (target, q0, *, given=None, limits=None))]
+    /// none. Its angles are not wrapped. At a singular target the whole self-motion is searched, not only its listed member. Given joints keep their values of
+    /// `q0`, unless `given` has others. A redundant solver searches all arcs within the described limits; with `scanned` joints, completeness is that of the
+    /// scan. Other arguments are those of `solve`.
+    #[pyo3(signature = (target, q0, *, given=None, limits=None, tolerance=None))]
     pub fn nearest(
         &self,
         py: Python<'_>,
@@ -191,26 +201,29 @@ impl Solver {
         q0: &Bound<'_, PyAny>,
         given: Option<&Bound<'_, PyAny>>,
         limits: Option<&Bound<'_, PyAny>>,
+        tolerance: Option<f64>,
     ) -> PyResult<Option<Solution>> {
         let turns = &self.0.kernel.shape().turns;
         let q0 = joint_values(q0, turns.len(), "q0")?;
+        let options = TargetOptions { given, limits, tolerance, as_array: false };
         if redundant::lacks_given(&self.0, target, given)? {
-            return redundant::nearest(py, self, target, &q0, limits);
+            return redundant::nearest(py, self, target, &q0, &options);
         }
         let bounds = self.bounds(limits)?.unwrap_or_else(|| vec![[f64::NEG_INFINITY, f64::INFINITY]; turns.len()]);
-        let numbers = self.one_target(target, given, self.0.placement.as_ref())?;
+        let numbers = self.one_target(target, &options, Some(&q0), self.0.placement.as_ref())?;
         let nearest = self.0.kernel.nearest_to(&numbers, &q0, &bounds).map_err(|error| raised(&error))?;
         Ok(nearest.map(|nearest| Solution::from(Answer::from(&nearest))))
     }
 
     /// Returns all solutions of many targets, as arrays: see `groebot.Batch`.
     ///
-    /// `targets` has the shape (N, 4, 4), (N, 12), (N, 7), or (N, numbers of `inputs`). `given` has the shape (given joints,) or (N, given joints). With
-    /// `limits`, only solutions are kept that are within them after whole turns. With `near`, of shape (joints,) or (N, joints), only the nearest solution of
-    /// each target is kept. `out`, of shape (rows, joints), receives the joint values. Invalid targets are reported in `status`; with `strict` they raise an
-    /// exception. `threads` is by default the number of processors. A redundant solver returns for each target what `solve` returns; with `scanned` joints
-    /// there are no batches.
-    #[pyo3(signature = (targets, *, given=None, layout="ragged", limits=None, near=None, out=None, dtype=None, threads=None, strict=false))]
+    /// `targets` has the shape (N, 4, 4), (N, 12), (N, 7), or (N, numbers of `inputs`), or is a pair of N positions and N rotations. `given` has the shape (given
+    /// joints,) or (N, given joints), or is a dict of joint names and values; by default it is that of `near`. With `limits`, only solutions are kept that are
+    /// within them after whole turns. With `near`, of shape (joints,) or (N, joints), only the nearest solution of each target is kept. `out`, of shape (rows,
+    /// joints), receives the joint values. Invalid targets are reported in `status`; with `strict` they raise an exception. `threads` is by default the number
+    /// of processors, as for -1. `tolerance` is that of `solve`. A redundant solver returns for each target what `solve` returns; with `scanned` joints there
+    /// are no batches.
+    #[pyo3(signature = (targets, *, given=None, layout="ragged", limits=None, near=None, out=None, dtype=None, threads=None, strict=false, tolerance=None))]
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     pub fn solve_batch<'py>(
         &self,
@@ -222,11 +235,13 @@ impl Solver {
         near: Option<&Bound<'py, PyAny>>,
         out: Option<&Bound<'py, PyAny>>,
         dtype: Option<&Bound<'py, PyAny>>,
-        threads: Option<usize>,
+        threads: Option<i64>,
         strict: bool,
+        tolerance: Option<f64>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let limits = self.bounds(limits)?;
-        let wanted = Wanted { given, limits: limits.as_deref(), near, out, threads: work::threads(threads), strict };
+        let (limits, threads) = (limits.as_deref(), work::threads(threads)?);
+        let wanted = Wanted { given, limits, near, out, threads, strict, tolerance };
         let arrays = if redundant::lacks_given(&self.0, targets, given)? {
             rows::solve_batch(py, self, targets, &wanted)?
         } else {
@@ -256,9 +271,9 @@ impl Solver {
     ///
     /// `q0` are the joint values before the first pose. A step is a jump if it exceeds `speeds` (joints,) \[rad/s, m/s\] times the time between two poses \[s\].
     /// This is `dt`, or the difference of `times` (N,). Without these, a jump is a step above half a radian or a tenth of the reach. Limits are those of the
-    /// description. A redundant solver follows targets of any task along arcs, also within narrower `limits`. With `scanned` joints, these move over a grid of
-    /// their values first.
-    #[pyo3(signature = (poses, q0=None, *, dt=None, times=None, speeds=None, limits=None))]
+    /// description. Given joints keep their values of `q0`, unless `given` has others. A redundant solver follows targets of any task along arcs, also within
+    /// narrower `limits`. With `scanned` joints, these move over a grid of their values first. `tolerance` is that of `solve`.
+    #[pyo3(signature = (poses, q0=None, *, dt=None, times=None, speeds=None, limits=None, given=None, tolerance=None))]
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     pub fn solve_path<'py>(
         &self,
@@ -269,8 +284,10 @@ impl Solver {
         times: Option<&Bound<'py, PyAny>>,
         speeds: Option<&Bound<'py, PyAny>>,
         limits: Option<&Bound<'py, PyAny>>,
+        given: Option<&Bound<'py, PyAny>>,
+        tolerance: Option<f64>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        path::solve_path(py, self, poses, &Wishes { q0, dt, times, speeds, limits })
+        path::solve_path(py, self, poses, &Wishes { q0, dt, times, speeds, limits, given, tolerance })
     }
 
     /// Returns the joint values whose target has the least error: see `groebot.Closest`. They are a solution if the target is reachable.
@@ -278,7 +295,7 @@ impl Solver {
     /// The error is distance^2 + (2 length sin(angle / 2))^2. `length` is by default the reach. With `limits`, of shape (joints, 2) or `True` for those of the
     /// description, the joint values are within them; without, limits are not respected. A redundant solver without `given` moves all joints, within the
     /// described limits; `limits` can only narrow them.
-    #[pyo3(signature = (target, *, length=None, given=None, limits=None))]
+    #[pyo3(signature = (target, *, length=None, given=None, limits=None, tolerance=None))]
     pub fn closest<'py>(
         &self,
         py: Python<'py>,
@@ -286,15 +303,22 @@ impl Solver {
         length: Option<f64>,
         given: Option<&Bound<'py, PyAny>>,
         limits: Option<&Bound<'py, PyAny>>,
+        tolerance: Option<f64>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        closest::closest(py, self, target, length, given, limits)
+        closest::closest(py, self, target, length, &TargetOptions { given, limits, tolerance, as_array: false })
     }
 
     /// Returns the solver for targets of a tool in a world frame, world_from_tool: see `groebot.PlacedSolver`. `base` is world_from_base and `tool` is
-    /// tip_from_tool, each a matrix (4, 4); the default is the identity. Other tasks than `pose` allow the placements that do not change their kind of target.
-    #[pyo3(signature = (*, base=None, tool=None))]
-    fn placed(&self, base: Option<&Bound<'_, PyAny>>, tool: Option<&Bound<'_, PyAny>>) -> PyResult<PlacedSolver> {
-        PlacedSolver::new(&self.0, base, tool)
+    /// tip_from_tool, each a pose in a form of `solve`; the default is the identity. Other tasks than `pose` allow the placements that do not change their kind
+    /// of target. `tolerance` is that of `solve`.
+    #[pyo3(signature = (*, base=None, tool=None, tolerance=None))]
+    fn placed(
+        &self,
+        base: Option<&Bound<'_, PyAny>>,
+        tool: Option<&Bound<'_, PyAny>>,
+        tolerance: Option<f64>,
+    ) -> PyResult<PlacedSolver> {
+        PlacedSolver::new(&self.0, base, tool, tolerance)
     }
 
     /// Proves the derivation again from its certificate, without the Groebner engine. Then checks the solutions of all kinds of targets against forward
@@ -304,10 +328,10 @@ impl Solver {
         &self,
         py: Python<'py>,
         progress: Option<&Bound<'py, PyAny>>,
-        threads: Option<usize>,
+        threads: Option<i64>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let stored = &self.0;
-        let checked = work::watched(py, progress, work::threads(threads), |watch| {
+        let checked = work::watched(py, progress, work::threads(threads)?, |watch| {
             let proved = stored.proved(watch)?;
             let mut source = stored.source()?;
             source.choose_given(watch)?;
@@ -323,10 +347,10 @@ impl Solver {
         &self,
         py: Python<'py>,
         progress: Option<&Bound<'py, PyAny>>,
-        threads: Option<usize>,
+        threads: Option<i64>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let stored = &self.0;
-        let (markdown, latex) = work::watched(py, progress, work::threads(threads), |watch| {
+        let (markdown, latex) = work::watched(py, progress, work::threads(threads)?, |watch| {
             let document = explain(&*stored.proved(watch)?)?;
             Ok((document.to_markdown(), document.to_latex()))
         })?;
@@ -344,66 +368,5 @@ impl Solver {
     #[pyo3(signature = (*, alone=true))]
     fn rust_source(&self, alone: bool) -> String {
         if alone { single_file::rust(&self.0.program) } else { rust::emit(&self.0.program) }
-    }
-}
-
-impl Solver {
-    pub fn of(stored: Stored) -> Self {
-        Solver(Arc::new(stored))
-    }
-
-    /// The solutions of one target.
-    fn found(
-        &self,
-        target: &Bound<'_, PyAny>,
-        given: Option<&Bound<'_, PyAny>>,
-        limits: Option<&[[f64; 2]]>,
-    ) -> PyResult<Vec<Solution>> {
-        let numbers = self.one_target(target, given, self.0.placement.as_ref())?;
-        let (kernel, mut all) = (&self.0.kernel, Vec::with_capacity(8));
-        let solved = match limits {
-            None => kernel.solve(&numbers, &mut |answer| all.push(answer.into())),
-            Some(limits) => kernel
-                .solve_within(&numbers, limits)
-                .map(|found| all.extend(found.iter().map(|answer| Solution::from(Answer::from(answer))))),
-        };
-        solved.map(|()| all).map_err(|error| raised(&error))
-    }
-
-    /// The numbers of one target, converted by a placement.
-    pub fn one_target(
-        &self,
-        target: &Bound<'_, PyAny>,
-        given: Option<&Bound<'_, PyAny>>,
-        placement: Option<&TaskPlacement>,
-    ) -> PyResult<Vec<f64>> {
-        let numbers = Numbers::of(target)?;
-        let values = given.map(|given| Numbers::of(given)?.to_vec()).transpose()?;
-        let borrowed = numbers.array.try_readonly()?;
-        let (targets, one) =
-            self.0.target_shape.targets(numbers.shape(), borrowed.as_slice()?, values.as_deref(), numbers.single)?;
-        if !one {
-            return Err(bad_value("`target` holds many targets; use solve_batch"));
-        }
-        let targets = targets.placed(placement);
-        let mut out = vec![0.0; targets.inputs];
-        match targets.row(0, &mut out) {
-            crate::sink::Status::Solved => Ok(out),
-            status => Err(bad_value(format!("the target {}", crate::batch::reason(status as u8)))),
-        }
-    }
-
-    /// The requested limits: those of an array, with `True` those of the description, or these with the pairs of a dict.
-    pub fn bounds(&self, limits: Option<&Bound<'_, PyAny>>) -> PyResult<Option<Vec<[f64; 2]>>> {
-        let Some(limits) = limits else { return Ok(None) };
-        if let Ok(pairs) = limits.cast::<PyDict>() {
-            let names: Vec<&str> = self.0.program.joints.iter().map(|joint| joint.name.as_str()).collect();
-            return arrays::named_limits(pairs, &names, self.0.program.limits()).map(Some);
-        }
-        match limits.extract::<bool>() {
-            Ok(true) => Ok(Some(self.0.program.limits())),
-            Ok(false) => Ok(None),
-            Err(_) => arrays::limits(&Numbers::of(limits)?, self.0.program.joints.len()).map(Some),
-        }
     }
 }

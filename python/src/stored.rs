@@ -233,6 +233,11 @@ impl Stored {
         Ok(Arc::clone(self.proved.get_or_init(|| proved)))
     }
 
+    /// Same as [`Stored::given`], as owned names.
+    pub fn given_names(&self) -> Vec<String> {
+        self.given().into_iter().map(str::to_owned).collect()
+    }
+
     /// The names of the joints whose values are given.
     pub fn given(&self) -> Vec<&str> {
         if self.program.tip().is_some() { self.program.given_names() } else { Vec::new() }

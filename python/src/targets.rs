@@ -1,14 +1,13 @@
 //! Targets in the numpy forms that are accepted. Main type: [`Targets`].
 
 use groebot::solver::TaskPlacement;
-use groebot::spatial::rotation::rows_of_quaternion;
 
+use crate::batch;
+use crate::rotation::{self, matrix_of_quaternion, project};
 use crate::sink::Status;
 
 /// Tolerance of the last row of a matrix.
 const LAST_ROW: f64 = 1e-9;
-/// Tolerance of a rotation in single precision.
-const SINGLE: f64 = 1e-5;
 
 /// Form of a target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,8 +32,8 @@ pub struct Targets<'a> {
     pub rotation: Option<usize>,
     /// The values of given joints, appended to the numbers of a target: one row for all, or one row for each.
     pub given: &'a [f64],
-    /// Whether rotations are in single precision. They are then made orthogonal.
-    pub single: bool,
+    /// Largest deviation of a rotation that is projected onto the nearest one: see [`project`].
+    pub tolerance: f64,
     /// Where base and tool are.
     pub placement: Option<&'a TaskPlacement>,
 }
@@ -64,7 +63,9 @@ impl<'a> Targets<'a> {
         let start = if self.given.len() == given { 0 } else { index * given };
         out[self.numbers()..].copy_from_slice(&self.given[start..start + given]);
         let status = match self.rotation {
-            Some(first) if self.single && status == Status::Solved => rounded(&mut out[first..first + 9]),
+            Some(first) if status == Status::Solved && self.form != Form::Quaternion => {
+                self.by_entries(&mut out[first..first + 9])
+            }
             _ => status,
         };
         match (status, self.placement) {
@@ -73,6 +74,23 @@ impl<'a> Targets<'a> {
             _ => out[0] = f64::NAN,
         }
         status
+    }
+
+    /// The text for the status of a target, with the deviation of its rotation where a greater tolerance helps.
+    pub fn reason(&self, index: usize, status: u8) -> String {
+        let row = &self.data[index * self.width..][..self.width];
+        let off = match (status == Status::NotRotation as u8, self.form, self.rotation) {
+            (true, Form::Quaternion, Some(first)) => rotation::quaternion_deviation(&row[first..first + 4]),
+            (true, Form::Numbers, Some(first)) => rotation::matrix_deviation(&row[first..first + 9]),
+            (true, Form::Matrix, _) if has_last_row(row) => {
+                rotation::matrix_deviation(&[&row[..3], &row[4..7], &row[8..11]].concat())
+            }
+            _ => None,
+        };
+        match off {
+            Some(off) => format!("has {}", rotation::refusal(off, self.tolerance)),
+            None => batch::reason(status).to_owned(),
+        }
     }
 
     /// Number of a target's inputs that a row determines.
@@ -92,9 +110,17 @@ impl<'a> Targets<'a> {
             return Status::NotFinite;
         }
         let given = [row[first], row[first + 1], row[first + 2], row[first + 3]];
-        let Ok(rotation) = rows_of_quaternion(given) else { return Status::NotRotation };
+        let Some(rotation) = matrix_of_quaternion(given, self.tolerance) else { return Status::NotRotation };
         out[first..first + 9].copy_from_slice(&rotation);
         Status::Solved
+    }
+
+    /// Projects the entries of a rotation matrix, row by row.
+    fn by_entries(&self, entries: &mut [f64]) -> Status {
+        if entries.iter().any(|entry| !entry.is_finite()) {
+            return Status::NotFinite;
+        }
+        if project(entries, self.tolerance) { Status::Solved } else { Status::NotRotation }
     }
 }
 
@@ -103,8 +129,7 @@ fn by_matrix(row: &[f64], out: &mut [f64]) -> Status {
         out[i] = row[4 * i + 3];
         out[3 + 3 * i..6 + 3 * i].copy_from_slice(&row[4 * i..4 * i + 3]);
     }
-    let off = |(value, wanted): (&f64, f64)| (value - wanted).abs() <= LAST_ROW;
-    if row[12..].iter().zip([0.0, 0.0, 0.0, 1.0]).all(off) {
+    if has_last_row(row) {
         Status::Solved
     } else if row.iter().all(|number| number.is_finite()) {
         Status::NotRotation
@@ -113,20 +138,7 @@ fn by_matrix(row: &[f64], out: &mut [f64]) -> Status {
     }
 }
 
-/// Makes a rotation in single precision orthogonal: Newton's steps R (3 - R^T R) / 2 converge to the nearest orthogonal matrix (N. J. Higham, SIAM Journal on
-/// Scientific and Statistical Computing 7, 1986).
-fn rounded(entries: &mut [f64]) -> Status {
-    if entries.iter().any(|entry| !entry.is_finite()) {
-        return Status::NotFinite;
-    }
-    let mut turn = nalgebra::Matrix3::from_row_slice(entries);
-    let gram = turn.transpose() * turn;
-    if (gram - nalgebra::Matrix3::identity()).amax() > SINGLE || turn.determinant() < 0.0 {
-        return Status::NotRotation;
-    }
-    for _ in 0..3 {
-        turn = turn * (nalgebra::Matrix3::identity() * 3.0 - turn.transpose() * turn) * 0.5;
-    }
-    entries.copy_from_slice(turn.transpose().as_slice());
-    Status::Solved
+/// Whether the last row of a matrix is 0, 0, 0, 1.
+fn has_last_row(row: &[f64]) -> bool {
+    row[12..].iter().zip([0.0, 0.0, 0.0, 1.0]).all(|(value, wanted)| (value - wanted).abs() <= LAST_ROW)
 }

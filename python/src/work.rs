@@ -7,7 +7,7 @@ use std::time::Duration;
 use groebot::{Error, ErrorKind, Result, Watch};
 use pyo3::prelude::*;
 
-use crate::errors::raised;
+use crate::errors::{bad_value, raised};
 
 /// Period of progress reports and signal checks.
 const PERIOD: Duration = Duration::from_millis(50);
@@ -89,8 +89,14 @@ fn pooled<T: Send>(threads: usize, work: impl FnOnce() -> Result<T> + Send) -> R
     pool.map_err(failed)?.install(work)
 }
 
-/// The requested number of threads, limited to a useful range; by default the number of processors.
-pub fn threads(requested: Option<usize>) -> usize {
-    let usual = || std::thread::available_parallelism().map_or(1, usize::from);
-    requested.filter(|requested| *requested > 0).map_or_else(usual, |requested| requested.min(MOST_THREADS))
+/// The requested number of threads, at most [`MOST_THREADS`]. By default, and for -1 and 0, it is the number of processors.
+///
+/// # Errors
+/// `BadValueError` below -1.
+pub fn threads(requested: Option<i64>) -> PyResult<usize> {
+    match requested.unwrap_or(-1) {
+        -1 | 0 => Ok(std::thread::available_parallelism().map_or(1, usize::from).min(MOST_THREADS)),
+        wrong if wrong < 0 => Err(bad_value(format!("`threads` is {wrong}; give 1 or more, or -1 for all processors"))),
+        count => Ok(usize::try_from(count).unwrap_or(MOST_THREADS).min(MOST_THREADS)),
+    }
 }

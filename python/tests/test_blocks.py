@@ -1,6 +1,11 @@
 """Blocks: their content equals the results of `solve_batch`. A file is complete or absent, and is not computed twice."""
 
 import os
+import socket
+import subprocess
+import sys
+import threading
+import time
 
 import numpy as np
 import pytest
@@ -144,9 +149,64 @@ def test_what_is_done_is_not_done_again_and_what_is_broken_is(tmp_path, ur5, sou
     files[1].unlink()
     files[2].write_bytes(files[2].read_bytes()[:1000])
     files[3].write_bytes(b"")
-    (out / f".{files[1].stem}-elsewhere-1-0.aside").write_bytes(b"half")
+    asides = [out / f".{files[1].stem}-{host}-{pid}-0.aside" for host, pid in ((socket.gethostname(), ended_process()), ("else-where", 1))]
+    for aside in asides:
+        aside.write_bytes(b"half")
+    hours = time.time() - 2 * 3600
+    os.utime(asides[1], (hours, hours))
     assert blocks.run(work, out, block=500).written == 3
     assert contents(out) == whole
+
+
+def ended_process():
+    """The number of a process that has ended."""
+    process = subprocess.Popen([sys.executable, "-c", ""])
+    process.wait()
+    return process.pid
+
+
+def test_temporary_files_of_other_drivers_are_kept(tmp_path, ur5, source):
+    work, out = Solve.of(ur5, source), tmp_path / "out"
+    out.mkdir()
+    others = [out / f".block-000000000000-000000000500-{host}-{pid}-0.aside" for host, pid in ((socket.gethostname(), os.getpid()), ("elsewhere", 1))]
+    for other in others:
+        other.write_bytes(b"half")
+    blocks.run(work, out, block=500)
+    assert all(other.exists() for other in others)
+
+
+def test_two_drivers_share_a_folder(tmp_path, ur5, source):
+    """Both drivers end, and the files are those of one."""
+    work, out, results = Solve.of(ur5, source), tmp_path / "out", []
+    drivers = [threading.Thread(target=lambda: results.append(blocks.run(work, out, block=250))) for _ in range(3)]
+    for driver in drivers:
+        driver.start()
+    for driver in drivers:
+        driver.join()
+    assert len(results) == 3 and all(len(done.files) == 10 for done in results)
+    blocks.run(work, tmp_path / "alone", block=250)
+    assert contents(out) == contents(tmp_path / "alone")
+
+
+def test_a_flipped_bit_is_found_when_work_continues(tmp_path, ur5, poses):
+    """No damaged number and no damaged name is kept: the block is computed again, or refused if its description is damaged. Statistics may stay damaged."""
+    few = in_columns(tmp_path / "few.parquet", ur5, rows_of(poses[:100]))
+    work, out = Solve.of(ur5, few), tmp_path / "out"
+    (file,) = blocks.run(work, out).files
+    whole, wanted = file.read_bytes(), parquet.read_table(file)
+    again = refused = unread = 0
+    for place in np.random.default_rng(3).integers(0, 8 * len(whole), 60):
+        damaged = bytearray(whole)
+        damaged[place // 8] ^= 1 << place % 8
+        file.write_bytes(damaged)
+        try:
+            written = blocks.run(work, out).written
+            again, unread = again + written, unread + 1 - written
+            assert parquet.read_table(file).equals(wanted) and (not written or file.read_bytes() == whole)
+        except BadValueError:
+            refused += 1
+            file.unlink()
+    assert again + refused + unread == 60 and again > 40
 
 
 def test_a_block_that_cannot_be_written_leaves_nothing(tmp_path, ur5, source):

@@ -62,7 +62,7 @@ def test_wrong_shapes_report_the_right_ones(shape):
         {"given": [1.0]},
         {"out": np.zeros((3, 5))},
         {"out": [[0.0] * 6]},
-        {"threads": -1},
+        {"threads": -2},
         {"threads": "two"},
     ],
 )
