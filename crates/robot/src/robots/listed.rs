@@ -146,6 +146,8 @@ fn similar(name: &str) -> String {
     let own = plain(name);
     let names: Vec<&str> = LISTED.iter().map(Listed::name).collect();
     let longer = |other: &&&str| own.len() > 1 && plain(other).contains(&own);
-    let near: Vec<String> = names.iter().filter(longer).take(SIMILAR).map(|other| format!("`{other}`")).collect();
+    let mut longer: Vec<&str> = names.iter().filter(longer).copied().collect();
+    longer.sort_by_key(|other| !plain(other).starts_with(&own));
+    let near: Vec<String> = longer.iter().take(SIMILAR).map(|other| format!("`{other}`")).collect();
     if near.is_empty() { did_you_mean(name, &names) } else { format!(" (did you mean {}?)", near.join(", ")) }
 }
