@@ -179,7 +179,7 @@ def test_version_and_kinds():
     assert groebot.__version__
     with pytest.raises(groebot.GroebotError) as raised:
         Solver.named("ur6")
-    assert raised.value.kind == "unknown_name" and "ur5" in str(raised.value)
+    assert raised.value.kind == "unknown_name" and "ur3" in str(raised.value)
 
 
 def test_a_robot_by_name_is_derived_once_and_cached(tmp_path, monkeypatch):
