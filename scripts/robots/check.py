@@ -3,7 +3,7 @@
     check.py [NAME ...]     all robots, or those named: prints the differences. --write: writes their lines of the index too
 
 A difference is the greatest of any entry of the pose (metres, entries of the rotation) at 100 joint vectors, uniform within the limits.
-The frames and zero positions of the other description are taken as they are. If the poses then differ, those are fitted (align.py).
+The frames and zero positions of the other description are unchanged. If the poses then differ, those are fitted (align.py).
 """
 
 import json

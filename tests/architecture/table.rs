@@ -23,7 +23,10 @@ const TABLE: [(&str, Uses); 29] = [
     ("control", Uses::Only(&["drawing", "spatial", "model", "dynamics"])),
     ("solver", Uses::Only(&["number", "poly", "roots", "spatial", "kinematics"])),
     ("reach", Uses::Only(&["drawing", "spatial", "kinematics", "solver"])),
-    ("derive", Uses::Only(&["number", "poly", "groebner", "roots", "spatial", "model", "kinematics", "solver"])),
+    (
+        "derive",
+        Uses::Only(&["number", "poly", "groebner", "roots", "spatial", "model", "kinematics", "robots", "solver"]),
+    ),
     (
         "witness",
         Uses::Only(&["number", "poly", "groebner", "roots", "real", "spatial", "kinematics", "solver", "derive"]),
@@ -56,7 +59,18 @@ const TABLE: [(&str, Uses); 29] = [
     ("serve", Uses::Only(&["sim"])),
     (
         "folder",
-        Uses::Only(&["number", "spatial", "model", "kinematics", "dynamics", "solver", "derive", "witness", "codegen"]),
+        Uses::Only(&[
+            "number",
+            "spatial",
+            "model",
+            "kinematics",
+            "robots",
+            "dynamics",
+            "solver",
+            "derive",
+            "witness",
+            "codegen",
+        ]),
     ),
     ("cli", Uses::AllAbove),
 ];

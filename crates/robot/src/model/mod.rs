@@ -17,6 +17,7 @@ pub mod mjcf;
 mod names;
 mod options;
 mod outline;
+mod package_folders;
 mod parts;
 mod read;
 mod robot;

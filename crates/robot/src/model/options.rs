@@ -3,7 +3,7 @@
 use std::env;
 use std::path::{Path, PathBuf};
 
-use super::xacro::packages;
+use super::package_folders;
 
 /// Options for the reading of a robot description: the folders of packages and the values of xacro's arguments.
 ///
@@ -66,7 +66,7 @@ impl ReadOptions {
     /// [`ReadOptions::folder`].
     pub fn find_package(&self, name: &str) -> Option<PathBuf> {
         let given = self.packages.iter().find(|(known, _)| known == name).map(|(_, path)| path.clone());
-        given.or_else(|| self.folders.iter().find_map(|folder| packages::inside(folder, name)))
+        given.or_else(|| self.folders.iter().find_map(|folder| package_folders::inside(folder, name)))
     }
 
     /// The folders of the packages that are given by name.

@@ -3,10 +3,12 @@
 //!
 //! All are in metres and radians. Main types: [`Listed`], a robot with its vendor and the check of its numbers, and [`Known`], a chain with a function of its own.
 
+mod find;
 mod listed;
 mod table;
 
-pub use listed::{Kind, Listed, find};
+pub use find::find;
+pub use listed::{Kind, Listed};
 pub use table::LISTED;
 
 use crate::kinematics::{Chain, ChainParts};

@@ -5,7 +5,7 @@ use super::methods;
 use super::operators::{binary, compare, index_of, unary};
 use super::parser::parse;
 use super::syntax::{Comparison, Comprehension, Expression};
-use super::value::Value;
+use super::value::{Value, bad};
 use crate::document::shown;
 use crate::model::xacro::budget::Budget;
 use crate::{Error, ErrorKind, Result};
@@ -43,11 +43,6 @@ pub fn evaluate(text: &str, context: &mut dyn Context) -> Result<Value> {
     context.budget().spend(text.len())?;
     let expression = parse(text)?;
     Evaluator { context, locals: Vec::new() }.value(&expression)
-}
-
-/// An error about a value.
-pub fn bad(text: String) -> Error {
-    Error::new(ErrorKind::BadValue, text)
 }
 
 struct Evaluator<'c> {

@@ -3,17 +3,19 @@
 use std::cmp::Ordering;
 use std::f64::consts::{E, PI, TAU};
 
-use super::evaluate::bad;
 use super::methods::{insert, items};
 use super::operators::{binary, order};
 use super::syntax::Operator;
-use super::value::{Value, parse_float, parse_int};
+use super::value::{Value, bad, parse_float, parse_int};
 use crate::document::shown;
 use crate::model::xacro::budget::Budget;
 use crate::{Error, ErrorKind, Result};
 
+/// A function of one number.
+type OfOne = fn(f64) -> f64;
+
 /// The functions of one number.
-const OF_ONE: [(&str, fn(f64) -> f64); 27] = [
+const OF_ONE: [(&str, OfOne); 27] = [
     ("sin", f64::sin),
     ("cos", f64::cos),
     ("tan", f64::tan),

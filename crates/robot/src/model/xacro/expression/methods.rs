@@ -1,7 +1,6 @@
 //! Methods of texts, lists and dicts, slices, and texts with `%`.
 
-use super::evaluate::bad;
-use super::value::Value;
+use super::value::{Value, bad};
 use crate::model::xacro::budget::Budget;
 use crate::{Error, ErrorKind, Result};
 

@@ -2,10 +2,9 @@
 
 use std::cmp::Ordering;
 
-use super::evaluate::bad;
 use super::methods::{formatted, position};
 use super::syntax::{Comparison, Operator, Unary};
-use super::value::Value;
+use super::value::{Value, bad};
 use crate::document::shown;
 use crate::model::xacro::budget::Budget;
 use crate::{Error, ErrorKind, Result};

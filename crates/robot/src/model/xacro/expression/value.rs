@@ -272,3 +272,8 @@ pub fn parse_float(text: &str) -> Option<f64> {
     let is_bad = text.starts_with('_') || text.ends_with('_') || text.contains("__");
     if is_bad || text.contains("_.") || text.contains("._") { None } else { text.replace('_', "").parse().ok() }
 }
+
+/// An error about a value.
+pub fn bad(text: String) -> Error {
+    Error::new(ErrorKind::BadValue, text)
+}
