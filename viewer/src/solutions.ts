@@ -36,6 +36,7 @@ export class Solutions {
       return new Solutions(app, picture, limbs.map((limb) => new LimbSolver(engine, app, limb)));
     } catch (error) {
       element("solutions-state").textContent = `Solutions are unavailable: ${error instanceof Error ? error.message : error}.`;
+      for (const id of ["limb-choice", "shown", "target-move", "target-turn"]) element(id).hidden = true;
       return undefined;
     }
   }

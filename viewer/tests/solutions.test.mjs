@@ -170,3 +170,10 @@ test("a phone shows the solutions below the picture", async () => {
   assert.ok((await phone.locator("#solutions").boundingBox()).y > 300);
   assert.ok((await phone.locator("#canvas").boundingBox()).height > 200);
 });
+
+test("a solver of another task than poses has no controls of solutions", async () => {
+  const opened = await open(browser, page("ray.html", path.join(root, "derivations/nao_left_arm")));
+  assert.equal(opened.failure, null);
+  assert.match(await opened.locator("#solutions-state").innerText(), /nao_left_arm is not solved for a pose of its tip/);
+  for (const id of ["limb-choice", "shown", "target-move", "target-turn"]) assert.ok(await opened.locator(`#${id}`).isHidden(), id);
+});
