@@ -1,5 +1,7 @@
 //! Detection of a file's type by its content, for files that are given instead of a description.
 
+use std::path::Path;
+
 use serde::de::IgnoredAny;
 
 use crate::{Error, ErrorKind, Result};
@@ -38,6 +40,14 @@ const BINARY: [(&[u8], &str, &str); 21] = [
 ];
 /// Number of lines that are inspected to recognise a table.
 const TABLE: usize = 4;
+
+/// The ends of names of files in XML.
+const XML_ENDS: [&str; 5] = ["urdf", "xml", "xacro", "sdf", "mjcf"];
+
+/// Whether the name of a file is that of a description in XML.
+pub fn has_xml_name(path: &Path) -> bool {
+    path.extension().is_some_and(|end| XML_ENDS.iter().any(|xml| end.eq_ignore_ascii_case(xml)))
+}
 
 /// Whether `bytes` begin like XML, in any encoding.
 pub fn is_xml(bytes: &[u8]) -> bool {

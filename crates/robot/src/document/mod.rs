@@ -27,7 +27,7 @@ use groebot_algebra::limits;
 use groebot_algebra::number::{BigInt, BigRational, parse_rational};
 
 pub use certificate::{Certificate, Proves, head_of};
-pub use content::{explained, is_xml, refuse_binary};
+pub use content::{explained, has_xml_name, is_xml, refuse_binary};
 pub use converted::as_toml;
 pub use encoding::{XmlText, as_utf8, decode_xml};
 pub use groebot_algebra::escape::shown;

@@ -5,10 +5,9 @@ use std::path::Path;
 use super::urdf::URDF_LIMIT;
 use super::{ReadOptions, Robot, xacro};
 use crate::Result;
-use crate::document::{TEXT_LIMIT, as_toml, decode_xml, explained, is_xml, read_description, refuse_binary, text_of};
-
-/// The ends of names of files in XML.
-const XML_ENDS: [&str; 5] = ["urdf", "xml", "xacro", "sdf", "mjcf"];
+use crate::document::{
+    TEXT_LIMIT, as_toml, decode_xml, explained, has_xml_name, is_xml, read_description, refuse_binary, text_of,
+};
 
 impl Robot {
     /// The robot that the file at `path` describes, with [`ReadOptions::from_environment`].
@@ -29,7 +28,7 @@ impl Robot {
     /// tables. All have the file.
     pub fn read_with(path: impl AsRef<Path>, options: &ReadOptions) -> Result<Robot> {
         let path = path.as_ref();
-        let named = path.extension().is_some_and(|end| XML_ENDS.iter().any(|xml| end.eq_ignore_ascii_case(xml)));
+        let named = has_xml_name(path);
         let bytes = read_description(path, if named { URDF_LIMIT } else { TEXT_LIMIT })?;
         Robot::from_bytes(bytes, named, path, options).map_err(|error| error.in_file(path))
     }

@@ -53,6 +53,9 @@ fn faults_of_a_table_have_their_line() {
         ("name,theta,d,a,alpha\nj,0,0,1,0\n".to_owned(), ErrorKind::MissingKey, None, "# convention: standard"),
         (format!("{head}j,0,0,1\n"), ErrorKind::BadValue, Some(3), "4 cells"),
         (format!("{head}\nj,0,0,x,0\n"), ErrorKind::Syntax, Some(4), "x"),
+        (format!("{head}j,q1+90,0,1,0\n"), ErrorKind::Syntax, Some(3), "q1+90"),
+        (format!("{head}j,q1-pi/2,0,1,0\n"), ErrorKind::BadValue, Some(3), "q1-pi/2"),
+        (format!("{head}j,nan,0,1,0\n"), ErrorKind::Syntax, Some(3), "nan"),
         (format!("{head}j,0,0,1,pi/0\n"), ErrorKind::BadValue, Some(3), "pi/0"),
         (
             "# convention: standard\nname,theta [deg],d,a,alpha [rad]\n".to_owned(),

@@ -5,47 +5,34 @@ use std::path::{Path, PathBuf};
 use crate::derive::System;
 use crate::derive::coupled::CoupledChains;
 use crate::derive::planner::{Choice, is_redundant, joints_to_give};
+use crate::derive::problem::description::{from_toml, from_xacro, from_xml};
 use crate::derive::problem::ends::{Ends, TASK_NAME, proposed};
 use crate::derive::problem::formulate::formulated;
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::document::{
-    Document, TEXT_LIMIT, as_toml, decode_xml, explained, is_stdin, is_xml, read_description, refuse_binary, text_of,
+    TEXT_LIMIT, as_toml, decode_xml, explained, has_xml_name, is_stdin, is_xml, read_description, refuse_binary,
+    text_of,
 };
 use groebot_robot::kinematics::ideal::Report;
 use groebot_robot::kinematics::{Chain, DhTable, LinkPath, TipChoice};
 use groebot_robot::model::urdf::URDF_LIMIT;
-use groebot_robot::model::{ReadOptions, Robot, XmlFormat, xacro};
+use groebot_robot::model::{ReadOptions, xacro};
 use groebot_robot::robots::{self, Listed};
+
+pub use crate::derive::problem::description::Description;
 
 /// The allowed names of the input in a mechanism's folder: a chain (or a DH table), a system, a URDF robot, coupled chains, a TOML robot.
 pub const INPUT_NAMES: [&str; 5] = ["0_chain.toml", "0_system.toml", "0_robot.urdf", COUPLED_NAME, "0_robot.toml"];
-/// The ends of names of files in XML.
-const XML_ENDS: [&str; 5] = ["urdf", "xml", "xacro", "sdf", "mjcf"];
 /// The name of the description of chains that share actuators, in a mechanism's folder.
 pub const COUPLED_NAME: &str = "0_coupled.toml";
 
-/// The content of an input file.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Description {
-    /// One chain: `chain.toml` or a DH table.
-    Chain(Box<Chain>),
-    /// Equations.
-    System(System),
-    /// A robot with any number of chains: URDF, xacro, MJCF, SDF or TOML.
-    Robot(Robot),
-    /// Chains that share actuators.
-    Coupled(Box<CoupledChains>),
-}
-
-impl Description {
-    /// The file's name in a mechanism's folder.
-    fn file_name(&self, is_xml: bool) -> &'static str {
-        match self {
-            Description::Chain(_) => INPUT_NAMES[0],
-            Description::System(_) => INPUT_NAMES[1],
-            Description::Robot(_) => INPUT_NAMES[if is_xml { 2 } else { 4 }],
-            Description::Coupled(_) => COUPLED_NAME,
-        }
+/// The name of a description's file in a mechanism's folder.
+fn stored_name(description: &Description, is_xml: bool) -> &'static str {
+    match description {
+        Description::Chain(_) => INPUT_NAMES[0],
+        Description::System(_) => INPUT_NAMES[1],
+        Description::Robot(_) => INPUT_NAMES[if is_xml { 2 } else { 4 }],
+        Description::Coupled(_) => COUPLED_NAME,
     }
 }
 
@@ -95,7 +82,7 @@ impl InputFile {
     /// # Errors
     /// [`ErrorKind::Io`] for a file that cannot be read; [`ErrorKind::UnknownName`] for a word that is neither a file nor a robot;
     /// [`ErrorKind::BadValue`] for a folder without exactly one input. [`ErrorKind::Unsupported`] for archives, JSON, YAML, tables and other files that are
-    /// not descriptions. As [`decode_xml`], [`xacro::expand`], [`Robot::from_xml`], [`CoupledChains::from_toml`],
+    /// not descriptions. As [`decode_xml`], [`xacro::expand`], [`Robot::from_xml`](groebot_robot::model::Robot::from_xml), [`CoupledChains::from_toml`],
     /// [`Chain::from_dh_toml`], [`Chain::from_toml`] and [`System::from_toml`], with file and line.
     pub fn read(path: &Path) -> Result<InputFile> {
         InputFile::read_with(path, &ReadOptions::from_environment())
@@ -111,7 +98,7 @@ impl InputFile {
         }
         let file = if path.is_dir() { input_in(path)? } else { path.to_owned() };
         let at_file = |error: Error| error.in_file(&file);
-        let ends_in_xml = file.extension().is_some_and(|end| XML_ENDS.iter().any(|xml| end.eq_ignore_ascii_case(xml)));
+        let ends_in_xml = has_xml_name(&file);
         let bytes = read_description(&file, if ends_in_xml || is_stdin(&file) { URDF_LIMIT } else { TEXT_LIMIT })?;
         refuse_binary(&bytes).map_err(at_file)?;
         let is_xml = ends_in_xml || is_xml(&bytes);
@@ -128,7 +115,7 @@ impl InputFile {
         let described = if is_xml { robot() } else { from_toml(&text, &file).map(|read| (read, text.clone())) };
         let (description, text) = described.map_err(|error| at_file(explained(error, &text)))?;
         let ends = read_ends(&file)?;
-        Ok(InputFile { path: file, name: description.file_name(is_xml), text, description, ends })
+        Ok(InputFile { path: file, name: stored_name(&description, is_xml), text, description, ends })
     }
 
     /// The description of a robot by name, as a file of this name without folder.
@@ -143,20 +130,26 @@ impl InputFile {
         // A chain between links has the name of both otherwise.
         let name = listed.ends().map(|_| listed.name().to_owned());
         let ends = Ends { base, tip, task: listed.task(), name, ..Ends::default() };
-        Ok(InputFile { name: description.file_name(false), text: listed.text().to_owned(), path, description, ends })
+        Ok(InputFile {
+            name: stored_name(&description, false),
+            text: listed.text().to_owned(),
+            path,
+            description,
+            ends,
+        })
     }
 
     /// The path between the links of a robot for `ends`, completed by the folder's task file. `None` for other descriptions.
     ///
     /// # Errors
-    /// As [`Robot::path`], with the file.
+    /// As [`Robot::path`](groebot_robot::model::Robot::path), with the file.
     pub fn path(&self, ends: &Ends) -> Result<Option<LinkPath>> {
         let Description::Robot(robot) = &self.description else { return Ok(None) };
         let ends = ends.or(&self.ends);
         robot.path(ends.base.as_deref(), ends.tip.as_deref()).map(Some).map_err(|error| error.in_file(&self.path))
     }
 
-    /// The parts of a robot that are [ignored](Robot::ignored) for its chain between `ends`. Empty for other inputs.
+    /// The parts of a robot that are [ignored](groebot_robot::model::Robot::ignored) for its chain between `ends`. Empty for other inputs.
     ///
     /// # Errors
     /// As [`InputFile::path`].
@@ -174,7 +167,7 @@ impl InputFile {
     /// The chain of this input for `ends`, completed by the folder's task file. `None` for a system and for coupled chains.
     ///
     /// # Errors
-    /// As [`Robot::chain`] and [`Chain::with_task`]. [`ErrorKind::BadValue`] for end links of an input without links, and for a task of a system or of coupled
+    /// As [`Robot::chain`](groebot_robot::model::Robot::chain) and [`Chain::with_task`]. [`ErrorKind::BadValue`] for end links of an input without links, and for a task of a system or of coupled
     /// chains. All name the file.
     pub fn chain(&self, ends: &Ends) -> Result<Option<Chain>> {
         let ends = ends.or(&self.ends);
@@ -203,53 +196,6 @@ fn read_ends(file: &Path) -> Result<Ends> {
     let is_named = file.file_name().is_some_and(|name| INPUT_NAMES.iter().any(|known| name == *known));
     let task_file = file.with_file_name(TASK_NAME);
     if is_named && task_file.is_file() { Ends::read(&task_file) } else { Ok(Ends::default()) }
-}
-
-/// Expands the xacro `text` of `file`, and reads it as a robot; with the expansion.
-fn from_xacro(text: &str, file: &Path, options: &ReadOptions, notes: Vec<String>) -> Result<(Description, String)> {
-    let expanded = xacro::expand_text(text, file, options)?;
-    let robot = expanded.robot()?.with_notes(notes);
-    Ok((Description::Robot(robot), expanded.text))
-}
-
-/// Reads the robot in the XML `text` of `file`, with its text in a mechanism's folder. That is URDF: an MJCF or SDF is
-/// written as URDF and read again, because it may include other files.
-fn from_xml(text: String, file: &Path, notes: Vec<String>) -> Result<(Description, String)> {
-    let robot = Robot::from_xml(&text, Some(file))?.with_notes(notes);
-    if XmlFormat::of(&text) == XmlFormat::Urdf {
-        return Ok((Description::Robot(robot), text));
-    }
-    let urdf = robot.to_urdf();
-    let again = Robot::from_urdf(&urdf).map_err(|error| error.with_context("as URDF"))?;
-    let mut parts = again.parts().clone();
-    // Messages are about the file itself.
-    parts.notes.clone_from(&robot.parts().notes);
-    parts.faults.clear();
-    for (link, own) in parts.links.iter_mut().zip(robot.links()) {
-        (link.line, link.notes) = (own.line, own.notes.clone());
-    }
-    for (joint, own) in parts.joints.iter_mut().zip(robot.joints()) {
-        (joint.line, joint.notes) = (own.line, own.notes.clone());
-    }
-    let again = Robot::with_faults(parts)?;
-    Ok((Description::Robot(again), urdf))
-}
-
-/// Reads the description in the text of `file`.
-fn from_toml(text: &str, file: &Path) -> Result<Description> {
-    let has = {
-        let document = Document::parse(text)?;
-        ["link", "chain", "dh", "tip", "task"].map(|key| document.root().optional(key).is_some())
-    };
-    let boxed = |chain| Description::Chain(Box::new(chain));
-    let folder = file.parent().unwrap_or(Path::new(""));
-    match has {
-        [true, ..] => Robot::from_toml(text).map(Description::Robot),
-        [_, true, ..] => CoupledChains::from_toml(text, folder).map(|coupled| Description::Coupled(Box::new(coupled))),
-        [_, _, true, ..] => Chain::from_dh_toml(text).map(boxed),
-        [_, _, _, false, false] => System::from_toml(text).map(Description::System),
-        _ => Chain::from_toml(text).map(boxed),
-    }
 }
 
 /// An input and its equations.

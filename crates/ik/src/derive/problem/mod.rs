@@ -2,6 +2,7 @@
 
 mod check;
 mod constants;
+mod description;
 pub mod ends;
 pub mod formulate;
 pub mod input;

@@ -182,7 +182,7 @@ impl Header {
             }
         }
         // The variable's own cell is its value at zero, unless it is a symbol.
-        let own = value(moving).filter(|cell| is_number(cell));
+        let own = value(moving).filter(|cell| !is_symbol(cell));
         if let Some(offset) = value("offset").or(own) {
             let _ = write!(text, ", offset = {}", self.number(offset)?);
         }
@@ -239,10 +239,10 @@ fn cells(line: &str) -> impl Iterator<Item = &str> {
     line.split(',').map(|cell| cell.trim().trim_matches('"').trim())
 }
 
-/// Whether a cell has a value, and not the name of a variable such as `q1` or `theta1`.
-fn is_number(cell: &str) -> bool {
-    let rest = cell.replace("pi", "").replace(['e', 'E'], "");
-    rest.chars().all(|c| !c.is_alphabetic())
+/// Whether a cell is the name of a variable, such as `q1`, `theta_1` or `θ1*`. A sum such as `q1+90` is not: its number must not be lost.
+fn is_symbol(cell: &str) -> bool {
+    let is_part = |c: char| c.is_alphanumeric() || matches!(c, '_' | '*' | '[' | ']');
+    cell.starts_with(char::is_alphabetic) && cell.chars().all(is_part) && cell != "pi" && cell.parse::<f64>().is_err()
 }
 
 /// A string of TOML.
