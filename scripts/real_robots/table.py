@@ -26,6 +26,7 @@ values drawn uniformly within their limits, and checks every answer ([scripts/re
 | exit | the exit status of `derive`. 3: the solver was written, and its check (`6_check.csv`, 240 targets) failed at singular targets, which are listed below the table |
 
 A pose is ordinary if no singular value of the Jacobian (lengths over the chain's reach) is below 1e-3.
+Some of these descriptions differ from the maker's robot, as the names say. Descriptions with checked numbers: [named_robots.md](named_robots.md).
 """
 
 COLUMNS = ("robot", "chain", "joints", "task", "seconds", "solutions", "found", "residual", "C", "Rust", "exit")

@@ -57,6 +57,14 @@ def locate(name):
     return found[0]
 
 
+def is_installed(name):
+    """Whether the Python package of a description is installed."""
+    try:
+        return bool(metadata.version(name.split(":")[0]))
+    except metadata.PackageNotFoundError:
+        return False
+
+
 def version(name):
     """The package and its version, such as `ssik 8.2.0`."""
     package = name.split(":")[0]
