@@ -296,3 +296,16 @@ fn floating_joints_are_not_written() {
     let error = Robot::from_urdf(text).unwrap().to_sdf(&mut Vec::new()).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Unsupported, "{error}");
 }
+
+#[test]
+fn a_joint_that_closes_a_loop_is_ignored_with_a_note() {
+    let four_bars = "<link name='c'/><link name='d'/>
+        <joint name='ab' type='revolute'><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz></axis></joint>
+        <joint name='ad' type='revolute'><parent>a</parent><child>d</child><axis><xyz>0 0 1</xyz></axis></joint>
+        <joint name='bc' type='revolute'><parent>b</parent><child>c</child><axis><xyz>0 0 1</xyz></axis></joint>
+        <joint name='dc' type='revolute'><parent>d</parent><child>c</child><axis><xyz>0 0 1</xyz></axis></joint>";
+    let robot = model(four_bars).unwrap();
+    assert_eq!(robot.moving().len(), 3);
+    let notes = robot.notes().join("\n");
+    assert!(notes.contains("line 6: joint `dc` closes a loop of links and is ignored"), "{notes}");
+}

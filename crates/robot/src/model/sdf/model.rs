@@ -1,5 +1,7 @@
 //! A model of an SDF with its nested models. Main type: [`Scope`].
 
+use std::collections::HashMap;
+
 use super::frames::{Fixed, Frames, MODEL, WORLD};
 use super::include::Includes;
 use super::joint::{self, Kind};
@@ -27,6 +29,7 @@ pub struct Scope {
     frames: Frames,
     names: Names,
     joints: Vec<Pending>,
+    trees: Trees,
     /// The full names of frames that become links, with their places in the file.
     tips: Vec<(String, Option<usize>, Error)>,
 }
@@ -36,7 +39,7 @@ impl Scope {
     pub fn new(name: &str, version: (u32, u32)) -> Self {
         let parts = RobotParts { name: name.to_owned(), ..RobotParts::default() };
         let (frames, names) = (Frames::new(), Names::default());
-        Scope { version, parts, frames, names, joints: Vec::new(), tips: Vec::new() }
+        Scope { version, parts, frames, names, joints: Vec::new(), trees: Trees::default(), tips: Vec::new() }
     }
 
     /// Reads the outermost model.
@@ -179,6 +182,11 @@ impl Scope {
             if is_world { WORLD.to_owned() } else { self.frames.link_of(&format!("{prefix}{parent}"), &at)? };
         let child = format!("{prefix}{}", joint::end(element, "child")?);
         let child = self.frames.link_of(&child, &at)?;
+        if !self.trees.join(&parent, &child) {
+            let text = "closes a loop of links and is ignored: links form a tree without it";
+            self.parts.notes.push(format!("line {}: joint `{}` {text}", element.line, shown(name)));
+            return Ok(false);
+        }
         let pose = self.frames.between(&parent, &child, &at)?;
         if kind == Kind::Fixed {
             let joint = Joint::new(name, JointType::Fixed, &parent, &child);
@@ -203,14 +211,43 @@ impl Scope {
     }
 }
 
+/// The links that joints connect, in either direction.
+#[derive(Default)]
+struct Trees(HashMap<String, String>);
+
+impl Trees {
+    /// Connects two links. Returns whether they were in different trees.
+    fn join(&mut self, parent: &str, child: &str) -> bool {
+        let (above, below) = (self.root(parent), self.root(child));
+        let is_new = above != below;
+        if is_new {
+            self.0.insert(below, above);
+        }
+        is_new
+    }
+
+    /// The link that stands for the tree of `link`. The links on the way point to it from now on, so that long chains stay fast.
+    fn root(&mut self, link: &str) -> String {
+        let mut passed = vec![link.to_owned()];
+        while let Some(next) = passed.last().and_then(|link| self.0.get(link)) {
+            passed.push(next.clone());
+        }
+        let root = passed.pop().expect("at least the link itself");
+        self.0.extend(passed.into_iter().map(|link| (link, root.clone())));
+        root
+    }
+}
+
 /// The name of an element.
 fn name_of(element: &Element) -> Result<&str> {
     let name = element.required("name")?;
-    if name.is_empty() || name.contains("::") || name == WORLD || name == MODEL {
-        let text = format!("has the name `{}`; give one that is not empty, reserved or has `::`", shown(name));
-        return Err(element.error(ErrorKind::BadValue, &text));
-    }
-    Ok(name)
+    let fault = match name {
+        "" => "an empty name",
+        WORLD | MODEL => "a name that SDF reserves",
+        _ if name.contains("::") => "a name with `::`, which separates the names of nested models",
+        _ => return Ok(name),
+    };
+    Err(element.error(ErrorKind::BadValue, &format!("has {fault}, `{}`; give another one", shown(name))))
 }
 
 /// The place of an element in the file, as an error without a cause.
