@@ -14,6 +14,7 @@
 mod certificate;
 mod content;
 pub mod converted;
+mod description;
 mod encoding;
 mod json;
 mod text;
@@ -27,14 +28,16 @@ use groebot_algebra::limits;
 use groebot_algebra::number::{BigInt, BigRational, parse_rational};
 
 pub use certificate::{Certificate, Proves, head_of};
-pub use content::{explained, has_xml_name, is_xml, refuse_binary};
+pub(crate) use content::refuse_binary;
 pub use converted::as_toml;
+pub use description::DescriptionText;
 pub use encoding::{XmlText, as_utf8, decode_xml};
 pub use groebot_algebra::escape::shown;
 pub use json::{JsonFormat, json_text};
 pub use text::open;
+pub use text::read_bytes;
+pub(crate) use text::text_of;
 pub use text::{is_stdin, read_text, read_xml, unix_lines};
-pub use text::{read_bytes, read_description, text_of};
 
 /// The size limit of groebot's readers for [`read_text`]: one megabyte.
 pub const TEXT_LIMIT: u64 = limits::DESCRIPTION_BYTES;

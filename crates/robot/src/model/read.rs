@@ -2,12 +2,9 @@
 
 use std::path::Path;
 
-use super::urdf::URDF_LIMIT;
 use super::{ReadOptions, Robot, xacro};
 use crate::Result;
-use crate::document::{
-    TEXT_LIMIT, as_toml, decode_xml, explained, has_xml_name, is_xml, read_description, refuse_binary, text_of,
-};
+use crate::document::DescriptionText;
 
 impl Robot {
     /// The robot that the file at `path` describes, with [`ReadOptions::from_environment`].
@@ -23,27 +20,21 @@ impl Robot {
     /// SDF, otherwise URDF. Errors have the file and the line of the description before the expansion.
     ///
     /// # Errors
-    /// As [`read_description`], with a limit of four megabytes for these names and of one megabyte for others; as
-    /// [`decode_xml`], [`xacro::expand`] and [`Robot::from_xml`], or [`Robot::from_toml`]; [`crate::ErrorKind::Unsupported`] for archives, JSON, YAML and
-    /// tables. All have the file.
+    /// Those of [`DescriptionText::read`]; as [`xacro::expand`] and [`Robot::from_xml`], or [`Robot::from_toml`]; [`crate::ErrorKind::Unsupported`] for JSON, YAML
+    /// and tables that describe no robot. All have the file.
     pub fn read_with(path: impl AsRef<Path>, options: &ReadOptions) -> Result<Robot> {
         let path = path.as_ref();
-        let named = has_xml_name(path);
-        let bytes = read_description(path, if named { URDF_LIMIT } else { TEXT_LIMIT })?;
-        Robot::from_bytes(bytes, named, path, options).map_err(|error| error.in_file(path))
+        let read = DescriptionText::read(path)?;
+        Robot::from_description(&read, path, options).map_err(|error| error.in_file(path))
     }
 
-    fn from_bytes(bytes: Vec<u8>, named: bool, path: &Path, options: &ReadOptions) -> Result<Robot> {
-        refuse_binary(&bytes)?;
-        if named || is_xml(&bytes) {
-            let xml = decode_xml(&bytes)?;
-            if xacro::is_xacro(path, &xml.text) {
-                return Ok(xacro::expand_text(&xml.text, path, options)?.robot()?.with_notes(xml.notes));
-            }
-            let robot = Robot::from_xml(&xml.text, Some(path)).map_err(|error| explained(error, &xml.text))?;
-            return Ok(robot.with_notes(xml.notes));
-        }
-        let text = as_toml(text_of(bytes)?)?;
-        Robot::from_toml(&text).map_err(|error| explained(error, &text))
+    fn from_description(read: &DescriptionText, path: &Path, options: &ReadOptions) -> Result<Robot> {
+        let DescriptionText { text, is_xml, notes } = read;
+        let robot = match is_xml {
+            true if xacro::is_xacro(path, text) => xacro::expand_text(text, path, options)?.robot(),
+            true => Robot::from_xml(text, Some(path)).map_err(|error| read.explain(error)),
+            false => Robot::from_toml(text).map_err(|error| read.explain(error)),
+        };
+        robot.map(|robot| robot.with_notes(notes.clone()))
     }
 }

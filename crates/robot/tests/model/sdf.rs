@@ -306,6 +306,6 @@ fn a_joint_that_closes_a_loop_is_ignored_with_a_note() {
         <joint name='dc' type='revolute'><parent>d</parent><child>c</child><axis><xyz>0 0 1</xyz></axis></joint>";
     let robot = model(four_bars).unwrap();
     assert_eq!(robot.moving().len(), 3);
-    let notes = robot.notes().join("\n");
+    let notes = robot.parts().notes.join("\n");
     assert!(notes.contains("line 6: joint `dc` closes a loop of links and is ignored"), "{notes}");
 }

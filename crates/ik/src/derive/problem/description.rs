@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::Result;
 use crate::derive::System;
 use crate::derive::coupled::CoupledChains;
-use groebot_robot::document::Document;
+use groebot_robot::document::{DescriptionText, Document};
 use groebot_robot::kinematics::Chain;
 use groebot_robot::model::{ReadOptions, Robot, XmlFormat, xacro};
 
@@ -22,24 +22,19 @@ pub enum Description {
     Coupled(Box<CoupledChains>),
 }
 
-/// Expands the xacro `text` of `file`, and reads it as a robot; with the expansion.
-pub(super) fn from_xacro(
-    text: &str,
-    file: &Path,
-    options: &ReadOptions,
-    notes: Vec<String>,
-) -> Result<(Description, String)> {
-    let expanded = xacro::expand_text(text, file, options)?;
-    let robot = expanded.robot()?.with_notes(notes);
+/// Expands the xacro in `file`, and reads it as a robot; with the expansion.
+pub(super) fn from_xacro(read: &DescriptionText, file: &Path, options: &ReadOptions) -> Result<(Description, String)> {
+    let expanded = xacro::expand_text(&read.text, file, options)?;
+    let robot = expanded.robot()?.with_notes(read.notes.clone());
     Ok((Description::Robot(robot), expanded.text))
 }
 
-/// Reads the robot in the XML `text` of `file`, with its text in a mechanism's folder. That is URDF: an MJCF or SDF is
+/// Reads the robot in the XML of `file`, with its text in a mechanism's folder. That is URDF: an MJCF or SDF is
 /// written as URDF and read again, because it may include other files.
-pub(super) fn from_xml(text: String, file: &Path, notes: Vec<String>) -> Result<(Description, String)> {
-    let robot = Robot::from_xml(&text, Some(file))?.with_notes(notes);
-    if XmlFormat::of(&text) == XmlFormat::Urdf {
-        return Ok((Description::Robot(robot), text));
+pub(super) fn from_xml(read: &DescriptionText, file: &Path) -> Result<(Description, String)> {
+    let robot = Robot::from_xml(&read.text, Some(file))?.with_notes(read.notes.clone());
+    if XmlFormat::of(&read.text) == XmlFormat::Urdf {
+        return Ok((Description::Robot(robot), read.text.clone()));
     }
     let urdf = robot.to_urdf();
     let again = Robot::from_urdf(&urdf).map_err(|error| error.with_context("as URDF"))?;

@@ -9,13 +9,9 @@ use crate::derive::problem::description::{from_toml, from_xacro, from_xml};
 use crate::derive::problem::ends::{Ends, TASK_NAME, proposed};
 use crate::derive::problem::formulate::formulated;
 use crate::{Error, ErrorKind, Result, Watch};
-use groebot_robot::document::{
-    TEXT_LIMIT, as_toml, decode_xml, explained, has_xml_name, is_stdin, is_xml, read_description, refuse_binary,
-    text_of,
-};
+use groebot_robot::document::{DescriptionText, is_stdin};
 use groebot_robot::kinematics::ideal::Report;
 use groebot_robot::kinematics::{Chain, DhTable, LinkPath, TipChoice};
-use groebot_robot::model::urdf::URDF_LIMIT;
 use groebot_robot::model::{ReadOptions, xacro};
 use groebot_robot::robots::{self, Listed};
 
@@ -82,7 +78,7 @@ impl InputFile {
     /// # Errors
     /// [`ErrorKind::Io`] for a file that cannot be read; [`ErrorKind::UnknownName`] for a word that is neither a file nor a robot;
     /// [`ErrorKind::BadValue`] for a folder without exactly one input. [`ErrorKind::Unsupported`] for archives, JSON, YAML, tables and other files that are
-    /// not descriptions. As [`decode_xml`], [`xacro::expand`], [`Robot::from_xml`](groebot_robot::model::Robot::from_xml), [`CoupledChains::from_toml`],
+    /// not descriptions. Those of [`DescriptionText::read`]; as [`xacro::expand`], [`Robot::from_xml`](groebot_robot::model::Robot::from_xml), [`CoupledChains::from_toml`],
     /// [`Chain::from_dh_toml`], [`Chain::from_toml`] and [`System::from_toml`], with file and line.
     pub fn read(path: &Path) -> Result<InputFile> {
         InputFile::read_with(path, &ReadOptions::from_environment())
@@ -97,25 +93,15 @@ impl InputFile {
             return InputFile::of_robot(named_robot(name)?);
         }
         let file = if path.is_dir() { input_in(path)? } else { path.to_owned() };
-        let at_file = |error: Error| error.in_file(&file);
-        let ends_in_xml = has_xml_name(&file);
-        let bytes = read_description(&file, if ends_in_xml || is_stdin(&file) { URDF_LIMIT } else { TEXT_LIMIT })?;
-        refuse_binary(&bytes).map_err(at_file)?;
-        let is_xml = ends_in_xml || is_xml(&bytes);
-        let (text, notes) = if is_xml {
-            decode_xml(&bytes).map(|decoded| (decoded.text, decoded.notes))
-        } else {
-            text_of(bytes).and_then(as_toml).map(|text| (text, Vec::new()))
-        }
-        .map_err(at_file)?;
-        let robot = || match xacro::is_xacro(&file, &text) {
-            true => from_xacro(&text, &file, options, notes),
-            false => from_xml(text.clone(), &file, notes),
+        let read = DescriptionText::read(&file)?;
+        let described = match read.is_xml {
+            true if xacro::is_xacro(&file, &read.text) => from_xacro(&read, &file, options),
+            true => from_xml(&read, &file),
+            false => from_toml(&read.text, &file).map(|description| (description, read.text.clone())),
         };
-        let described = if is_xml { robot() } else { from_toml(&text, &file).map(|read| (read, text.clone())) };
-        let (description, text) = described.map_err(|error| at_file(explained(error, &text)))?;
+        let (description, text) = described.map_err(|error| read.explain(error).in_file(&file))?;
         let ends = read_ends(&file)?;
-        Ok(InputFile { path: file, name: stored_name(&description, is_xml), text, description, ends })
+        Ok(InputFile { path: file, name: stored_name(&description, read.is_xml), text, description, ends })
     }
 
     /// The description of a robot by name, as a file of this name without folder.
@@ -124,8 +110,7 @@ impl InputFile {
     /// As [`InputFile::read`].
     pub fn of_robot(listed: &Listed) -> Result<InputFile> {
         let path = PathBuf::from(listed.name());
-        let description =
-            from_toml(listed.text(), &path).map_err(|error| explained(error, listed.text()).in_file(&path))?;
+        let description = from_toml(listed.text(), &path).map_err(|error| error.in_file(&path))?;
         let [base, tip] = listed.ends().map_or([None, None], |ends| ends.map(|link| Some(link.to_owned())));
         // A chain between links has the name of both otherwise.
         let name = listed.ends().map(|_| listed.name().to_owned());

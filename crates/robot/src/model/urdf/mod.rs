@@ -20,9 +20,6 @@ use link::{colour_of, read_link};
 use transmission::{add_rotors, read_transmission};
 use xml::Element;
 
-/// Maximum size of a URDF file in bytes.
-pub const URDF_LIMIT: u64 = limits::XML_BYTES;
-
 impl Robot {
     /// The robot that `text` describes in the format of [`crate::model::urdf`]. What is wrong with a single link or joint is kept in [`Robot::faults`]:
     /// [`Robot::chain`] refuses it in a chain, and [`Robot::check`] in the whole robot.

@@ -34,7 +34,7 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 use super::{ReadOptions, Robot};
-use crate::document::{decode_xml, read_bytes, refuse_binary};
+use crate::document::read_xml;
 use crate::{Error, ErrorKind, Result};
 use expand::Expander;
 use groebot_algebra::limits;
@@ -98,7 +98,7 @@ pub fn is_xacro(path: &Path, text: &str) -> bool {
 /// folder.
 ///
 /// # Errors
-/// As [`read_bytes`] and [`decode_xml`]. All other errors have the file and line of an element; in a macro, the message
+/// As [`read_xml`]. All other errors have the file and line of an element; in a macro, the message
 /// has the place of the call. [`crate::ErrorKind::Syntax`] for text that is not XML and for invalid expressions;
 /// [`crate::ErrorKind::MissingKey`] for missing attributes and parameters; [`crate::ErrorKind::UnknownKey`] for
 /// parameters that a macro does not have; [`crate::ErrorKind::UnknownName`] for unknown macros, blocks, properties,
@@ -106,8 +106,7 @@ pub fn is_xacro(path: &Path, text: &str) -> bool {
 /// [`crate::ErrorKind::Unsupported`] for files outside of the packages and for environment variables;
 /// [`crate::ErrorKind::Io`] for missing files.
 pub fn expand(path: &Path, options: &ReadOptions) -> Result<Expanded> {
-    let bytes = read_bytes(path, limits::XML_BYTES)?;
-    let xml = refuse_binary(&bytes).and_then(|()| decode_xml(&bytes)).map_err(|error| error.in_file(path))?;
+    let xml = read_xml(path, limits::XML_BYTES)?;
     let mut expanded = expand_text(&xml.text, path, options)?;
     expanded.notes.extend(xml.notes);
     Ok(expanded)
