@@ -14,7 +14,6 @@ use std::collections::HashMap;
 use super::{Fault, Part, Robot, RobotParts};
 use crate::document::did_you_mean;
 use crate::{ErrorKind, Result};
-use groebot_algebra::limits;
 use joint::read_joint;
 use link::{colour_of, read_link};
 use transmission::{add_rotors, read_transmission};
