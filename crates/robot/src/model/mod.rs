@@ -10,6 +10,7 @@ mod changed;
 mod check;
 mod fault;
 mod finite;
+mod include_budget;
 mod joint;
 mod link;
 mod mesh;

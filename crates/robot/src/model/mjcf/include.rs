@@ -2,9 +2,9 @@
 
 use std::collections::HashSet;
 use std::path::{Component, Path, PathBuf};
-use std::sync::Arc;
 
-use crate::document::{read_xml, shown};
+use crate::document::shown;
+use crate::model::include_budget::IncludeBudget;
 use crate::model::urdf::xml::Element;
 use crate::{ErrorKind, Result};
 use groebot_algebra::limits;
@@ -13,21 +13,21 @@ use groebot_algebra::limits;
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] for an include of a text without a file, and for a path outside of the folder above the
-/// file's folder; [`ErrorKind::BadValue`] for a file that is included twice, and beyond the limits; those of [`read_xml`] and
-/// [`Element::parse_whole`].
+/// file's folder; [`ErrorKind::BadValue`] for a file that is included twice, and beyond the limits; those of
+/// [`IncludeBudget::read`].
 pub fn expand(root: Element, file: Option<&Path>) -> Result<Element> {
     let folder = file.map(|file| file.parent().unwrap_or(Path::new("")).to_owned());
-    let mut included = Included { folder, seen: HashSet::new(), bytes: 0, elements: 0 };
+    let mut included = Included { folder, seen: HashSet::new(), budget: IncludeBudget::default(), elements: 0 };
     included.seen.extend(file.and_then(|file| file.canonicalize().ok()));
     included.expand(root, 1)
 }
 
-/// Budget of the included files.
+/// The included files so far.
 struct Included {
     /// The folder of the main file.
     folder: Option<PathBuf>,
     seen: HashSet<PathBuf>,
-    bytes: u64,
+    budget: IncludeBudget,
     elements: usize,
 }
 
@@ -63,18 +63,7 @@ impl Included {
             let text = format!("includes `{}` a second time; a file can be included once", shown_path(&file));
             return Err(include.error(ErrorKind::BadValue, &text));
         }
-        if self.seen.len() > limits::XML_INCLUDES {
-            let text = format!("is one include too many; at most {} are read", limits::XML_INCLUDES);
-            return Err(include.error(ErrorKind::BadValue, &text));
-        }
-        let text = read_xml(&file, limits::XML_BYTES)?.text;
-        self.bytes += text.len() as u64;
-        if self.bytes > limits::XML_INCLUDED_BYTES {
-            let text = format!("exceeds the limit of {} bytes of included files", limits::XML_INCLUDED_BYTES);
-            return Err(include.error(ErrorKind::BadValue, &text));
-        }
-        let mut root = Element::parse_whole(&text).map_err(|error| error.in_file(&file))?;
-        root.mark(&Arc::from(file.as_path()));
+        let root = self.budget.read(include, &file)?;
         Ok(self.expand(root, depth)?.children)
     }
 

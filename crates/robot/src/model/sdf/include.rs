@@ -1,10 +1,10 @@
 //! Included models of an SDF. Main type: [`Includes`].
 
 use std::path::{Component, Path, PathBuf};
-use std::sync::Arc;
 
 use super::values::{required_text, text};
 use crate::document::{read_xml, shown};
+use crate::model::include_budget::IncludeBudget;
 use crate::model::urdf::xml::Element;
 use crate::{ErrorKind, Result};
 use groebot_algebra::limits;
@@ -16,8 +16,7 @@ const CONFIG: &str = "model.config";
 /// The folder and the budget of included files.
 pub struct Includes {
     folder: Option<PathBuf>,
-    count: usize,
-    bytes: u64,
+    budget: IncludeBudget,
     elements: usize,
     /// The files that include each other, from the main file.
     open: Vec<PathBuf>,
@@ -28,7 +27,7 @@ impl Includes {
     pub fn new(file: Option<&Path>) -> Self {
         let folder = file.map(|file| file.parent().unwrap_or(Path::new("")).to_owned());
         let open = file.and_then(|file| file.canonicalize().ok()).into_iter().collect();
-        Includes { folder, count: 0, bytes: 0, elements: 0, open }
+        Includes { folder, budget: IncludeBudget::default(), elements: 0, open }
     }
 
     /// Counts the elements of a file.
@@ -56,20 +55,8 @@ impl Includes {
                 include.error(ErrorKind::Unsupported, "merges a model, which is not read; include it without `merge`")
             );
         }
-        self.count += 1;
-        if self.count > limits::XML_INCLUDES {
-            let text = format!("is one include too many; at most {} are read", limits::XML_INCLUDES);
-            return Err(include.error(ErrorKind::BadValue, &text));
-        }
         let file = self.find(include)?;
-        let content = read_xml(&file, limits::XML_BYTES)?.text;
-        self.bytes += content.len() as u64;
-        if self.bytes > limits::XML_INCLUDED_BYTES {
-            let text = format!("exceeds the limit of {} bytes of included files", limits::XML_INCLUDED_BYTES);
-            return Err(include.error(ErrorKind::BadValue, &text));
-        }
-        let mut root = Element::parse_whole(&content).map_err(|error| error.in_file(&file))?;
-        root.mark(&Arc::from(file.as_path()));
+        let root = self.budget.read(include, &file)?;
         self.count(&root)?;
         let mut models = root.children.iter().filter(|child| child.name == "model");
         let (Some(model), None, "sdf") = (models.next(), models.next(), root.name.as_str()) else {
