@@ -6,6 +6,7 @@ use nalgebra::{Vector2, Vector3};
 
 use super::biped::Biped;
 use super::footprint::Side;
+use super::nearby::Nearby;
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::kinematics::{InverseKinematics, Solution, Target};
 use groebot_robot::spatial::{Pose, angle};
@@ -49,6 +50,10 @@ impl InverseKinematics for Pointing {
         let direction = pose.rotation * self.direction;
         self.ray.solve(&Target::Ray { point: pose.translation.vector.into(), direction }, given, out)
     }
+
+    fn uses_eigenvalues(&self) -> bool {
+        self.ray.uses_eigenvalues()
+    }
 }
 
 /// The solvers of both legs of a biped.
@@ -76,6 +81,8 @@ struct Leg {
     sole_from_link: Pose,
     /// The index of the knee in the leg, and the sign of its bend.
     knee: (usize, f64),
+    /// Finds the nearest solution without the others, where they take longer.
+    nearby: Option<Nearby>,
 }
 
 impl Legs {
@@ -182,6 +189,7 @@ impl Leg {
         let knee = (0..foot.joints.len()).max_by(|a, b| bent(a).total_cmp(&bent(b))).unwrap_or_default();
         Leg {
             side,
+            nearby: solver.uses_eigenvalues().then(|| Nearby::new(biped, foot)).flatten(),
             solver,
             joints: foot.joints.clone(),
             sole_from_link: foot.torso_from_sole.inv_mul(&torso_from_link),
@@ -198,15 +206,10 @@ impl Leg {
 
     /// Writes into `q` the solution for a sole at `torso_from_sole` that is nearest to `last`.
     fn stand(&self, torso_from_sole: &Pose, last: &[f64], q: &mut [f64]) -> Result<()> {
-        let rank = |answer: &Vec<f64>| {
-            let away = |(joint, value): (&usize, &f64)| angle::difference(*value, last[*joint]).abs();
-            let distance = self.joints.iter().zip(answer).map(away).fold(0.0, f64::max);
-            (answer[self.knee.0] * self.knee.1 < -STRAIGHT, distance)
+        let mut answer = match self.near(torso_from_sole, last) {
+            Some(answer) => answer.to_vec(),
+            None => self.nearest(torso_from_sole, last)?,
         };
-        let before = |a: &(bool, f64), b: &(bool, f64)| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1));
-        let answers = self.answers(torso_from_sole)?.into_iter().map(|answer| (rank(&answer), answer));
-        let best = answers.min_by(|(a, _), (b, _)| before(a, b));
-        let (_, mut answer) = best.ok_or_else(|| self.out_of_reach(torso_from_sole))?;
         let (knee, sense) = self.knee;
         if (-STRAIGHT..0.0).contains(&(answer[knee] * sense)) {
             answer[knee] = 0.0;
@@ -215,6 +218,32 @@ impl Leg {
             q[*joint] = value;
         }
         Ok(())
+    }
+
+    /// The solution that [`Leg::nearest`] would return, if that is known without the other ones.
+    fn near(&self, torso_from_sole: &Pose, last: &[f64]) -> Option<[f64; 6]> {
+        let nearby = self.nearby.as_ref()?;
+        let last: Vec<f64> = self.joints.iter().map(|joint| last[*joint]).collect();
+        let answer = nearby.solve(&(torso_from_sole * self.sole_from_link), last.as_slice().try_into().ok()?)?;
+        (!self.bends_back(&answer)).then_some(answer)
+    }
+
+    /// Of all solutions the nearest to `last`, of those whose knee bends as in the crouch if there are any.
+    fn nearest(&self, torso_from_sole: &Pose, last: &[f64]) -> Result<Vec<f64>> {
+        let rank = |answer: &Vec<f64>| {
+            let away = |(joint, value): (&usize, &f64)| angle::difference(*value, last[*joint]).abs();
+            let distance = self.joints.iter().zip(answer).map(away).fold(0.0, f64::max);
+            (self.bends_back(answer), distance)
+        };
+        let before = |a: &(bool, f64), b: &(bool, f64)| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1));
+        let answers = self.answers(torso_from_sole)?.into_iter().map(|answer| (rank(&answer), answer));
+        let best = answers.min_by(|(a, _), (b, _)| before(a, b));
+        best.map(|(_, answer)| answer).ok_or_else(|| self.out_of_reach(torso_from_sole))
+    }
+
+    /// Whether the knee bends in the direction opposite to that in the crouch.
+    fn bends_back(&self, answer: &[f64]) -> bool {
+        answer[self.knee.0] * self.knee.1 < -STRAIGHT
     }
 
     fn out_of_reach(&self, torso_from_sole: &Pose) -> Error {

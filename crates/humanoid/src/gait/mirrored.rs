@@ -56,6 +56,10 @@ impl InverseKinematics for Mirrored {
         }
         Ok(())
     }
+
+    fn uses_eigenvalues(&self) -> bool {
+        self.image.uses_eigenvalues()
+    }
 }
 
 /// The rotation about the axis `right` for the rotation by 1 about the axis `left`, whose mirror image it is; `None`

@@ -21,6 +21,7 @@ mod legs;
 mod limbs;
 mod mirrored;
 mod motion;
+mod nearby;
 mod one_step;
 mod parts;
 mod plan;

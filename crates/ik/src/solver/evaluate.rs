@@ -58,4 +58,8 @@ impl InverseKinematics for Program {
     fn nearest_to(&self, target: &Target, given: &[f64], q0: &[f64], limits: &[[f64; 2]]) -> Result<Option<Solution>> {
         InverseKinematics::nearest_to(&self.solver(), target, given, q0, limits)
     }
+
+    fn uses_eigenvalues(&self) -> bool {
+        self.has_six_axes()
+    }
 }

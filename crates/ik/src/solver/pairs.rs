@@ -27,13 +27,17 @@ impl Program {
     /// candidates can be measured without their angles.
     pub(crate) fn compares_tip(&self) -> bool {
         let is_angle = |value| matches!(value, JointValue::Angle { .. });
-        let mut steps = self.cases().flat_map(|case| &case.steps);
         let Some(forward) = self.forward().filter(|forward| !forward.inputs.is_empty()) else { return false };
         let values: Option<Vec<Operand>> = forward.equations.iter().map(|pair| pair.map(|(value, _)| value)).collect();
         self.joints.iter().any(|joint| is_angle(joint.value))
-            && !steps.any(|step| matches!(step, Step::SixAxes(_)))
+            && !self.has_six_axes()
             && self.checks.code.iter().all(|instruction| self.reads_joints(instruction))
             && values.is_some_and(|values| self.are_polynomials(values))
+    }
+
+    /// Whether a step finds six joints together.
+    pub(crate) fn has_six_axes(&self) -> bool {
+        self.cases().flat_map(|case| &case.steps).any(|step| matches!(step, Step::SixAxes(_)))
     }
 
     /// Whether all unknowns that an instruction reads belong to joints.

@@ -324,4 +324,8 @@ impl InverseKinematics for PlacedSolver<'_> {
         let numbers = self.base_from_tip(&self.solver.numbers_of(target, given)?);
         self.solver.nearest_to(&numbers, q0, None, Some(limits))
     }
+
+    fn uses_eigenvalues(&self) -> bool {
+        self.solver.uses_eigenvalues()
+    }
 }

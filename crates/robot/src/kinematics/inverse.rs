@@ -60,4 +60,10 @@ pub trait InverseKinematics: fmt::Debug + Send + Sync {
     ) -> Result<Option<Solution>> {
         Ok(None)
     }
+
+    /// Whether the solutions are found together as eigenvalues of a matrix, as those of six joints in general position. Newton's method from joint values near
+    /// a solution then takes less time.
+    fn uses_eigenvalues(&self) -> bool {
+        false
+    }
 }

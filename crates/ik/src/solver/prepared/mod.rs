@@ -260,4 +260,8 @@ impl InverseKinematics for Solver {
     fn nearest_to(&self, target: &Target, given: &[f64], q0: &[f64], limits: &[[f64; 2]]) -> Result<Option<Solution>> {
         Solver::nearest_to(self, &self.numbers_of(target, given)?, q0, None, Some(limits))
     }
+
+    fn uses_eigenvalues(&self) -> bool {
+        self.outline.eigenvalues
+    }
 }

@@ -15,6 +15,8 @@ pub(crate) struct Outline {
     /// The typical length, in the unit of the inputs: the reach of a chain.
     pub scale: f64,
     pub joints: Vec<JointOutline>,
+    /// Whether a step finds six joints together.
+    pub eigenvalues: bool,
 }
 
 /// A joint of a program.
@@ -48,6 +50,7 @@ impl Outline {
             inputs: program.inputs.len(),
             scale: program.scale,
             joints: program.joints.iter().enumerate().map(joint).collect(),
+            eigenvalues: program.has_six_axes(),
         }
     }
 
