@@ -108,18 +108,33 @@ class Robot:
         """Adds the motor of each joint."""
         model = self.model
         self.points, mass, length = [], model.body_subtreemass[self.torso], LENGTH * self.height
-        self.stiffness = servo[0] * mass * GRAVITY * length * gain
-        self.damping = servo[1] * mass * math.sqrt(GRAVITY) * length**1.5
+        self.stiffness = numpy.full(model.nu, servo[0] * mass * GRAVITY * length)
+        self.damping = numpy.full(model.nu, servo[1] * mass * math.sqrt(GRAVITY) * length**1.5)
         self.armature = servo[2] * mass * length**2
+        self.described = numpy.zeros(model.nu, dtype=bool) if model.nuser_actuator < 2 else model.actuator_user[:, 1] == 1.0
         for body in range(1, model.nbody):
             if model.body_mass[body] > 0.01 * mass and max(model.body_inertia[body]) < 1e-6 * mass * length**2:
                 model.body_inertia[body] = POINT * model.body_mass[body] * length**2
                 self.points.append(model.body(body).name)
         for actuator in range(model.nu):
             dof = model.jnt_dofadr[model.actuator_trnid[actuator, 0]]
-            model.actuator_gainprm[actuator, 0] = self.stiffness
-            model.actuator_biasprm[actuator, 1:3] = -self.stiffness, -self.damping
-            model.dof_armature[dof] = max(model.dof_armature[dof], self.inertia(actuator))
+            if self.described[actuator]:
+                self.take(actuator, dof)
+            else:
+                model.dof_armature[dof] = max(model.dof_armature[dof], self.inertia(actuator))
+        self.nominal = self.stiffness.copy()
+        self.stiffness *= gain
+        model.actuator_gainprm[:, 0] = self.stiffness
+        model.actuator_biasprm[:, 1], model.actuator_biasprm[:, 2] = -self.stiffness, -self.damping
+
+    def take(self, actuator, dof):
+        """Takes the gains of the description. A servo without any damping is critically damped; the inertia is at least that which MuJoCo integrates stably."""
+        model, stiffness = self.model, self.model.actuator_gainprm[actuator, 0]
+        model.dof_armature[dof] = max(model.dof_armature[dof], stiffness * STEP**2)
+        damping = -model.actuator_biasprm[actuator, 2]
+        if damping == 0.0 and model.dof_damping[dof] == 0.0:
+            damping = 2 * math.sqrt(stiffness * model.dof_armature[dof])
+        self.stiffness[actuator], self.damping[actuator] = stiffness, damping
 
     def inertia(self, actuator):
         """The inertia of a motor at its joint: by the limits of its effort and its velocity (`user`) where there are both, else by the robot's size."""
@@ -129,7 +144,17 @@ class Robot:
             return self.armature
         effort = model.actuator_forcerange[actuator, 1]
         # The servo's own frequency is at most 1 / (2 STEP): MuJoCo integrates this stably.
-        return min(max(MOTOR_TIME * effort / speed, self.stiffness * (2 * STEP) ** 2), self.armature)
+        return min(max(MOTOR_TIME * effort / speed, self.stiffness[actuator] * (2 * STEP) ** 2), self.armature)
+
+    def motors(self):
+        """The stiffness, damping and inertia of each motor."""
+        joints = self.model.actuator_trnid[:, 0]
+        inertias = self.model.dof_armature[self.model.jnt_dofadr[joints]]
+        rows = zip(self.names, self.stiffness, self.damping, inertias, self.described)
+        return [
+            {"joint": name, "stiffness": float(k), "damping": float(d), "armature": float(inertia), "described": bool(described)}
+            for name, k, d, inertia, described in rows
+        ]
 
     def command(self, time):
         """Sets the commands of the servos: those of the feedback, or by linear interpolation between rows."""
@@ -204,8 +229,7 @@ class Feedback:
         self.next, self.late, self.random, self.noise = 0.0, [], numpy.random.default_rng(0), given.noise
         self.sums, self.count = numpy.zeros((2, 6)), 0
         self.sides = {geom: side for side in (0, 1) for geom in robot.shapes[side]}
-        nominal = robot.stiffness / (given.gain * given.mass)
-        print(json.dumps({"joints": robot.names, "stiffness": nominal}), flush=True)
+        print(json.dumps({"joints": robot.names, "stiffness": robot.nominal.tolist()}), flush=True)
 
     def command(self, time):
         robot = self.robot
@@ -390,8 +414,7 @@ def main():
     table, fell = play(robot, filming(given.frames) if given.frames else None)
     table.write(given.answer, remarks)
     told = {
-        "mujoco": mujoco.__version__, "fell": fell, "stiffness": robot.stiffness, "damping": robot.damping,
-        "armature": robot.armature, "mass": robot.weight / GRAVITY, "points": robot.points,
+        "mujoco": mujoco.__version__, "fell": fell, "motors": robot.motors(), "mass": robot.weight / GRAVITY, "points": robot.points,
     }
     print(json.dumps(told))
 
