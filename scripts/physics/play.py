@@ -30,10 +30,13 @@ except ImportError as error:
 
 STEP = 0.002
 GRAVITY = 9.80665
-# Servo parameters, scaled by the robot's size. m is its mass, and l is 0.63 of the height of its torso: kp in m g l, damping in m g^0.5 l^1.5, armature in m
-# l^2. For NAO (m g l = 10.3 Nm) they are 308 Nm/rad, 2.2 Nms/rad and 0.043 kg m^2.
-SERVO = "30,1.5,0.21"
+# Servo parameters of joints without described gains, scaled by the robot's size. m is its mass, and l is 0.63 of the height of its torso: kp in m g l, damping
+# in m g^0.5 l^1.5, armature in m l^2. For NAO (m g l = 10.3 Nm) they are 308 Nm/rad, 2.2 Nms/rad and 0.043 kg m^2.
+SERVO = 30.0, 1.5, 0.21
 LENGTH = 0.63
+# The least error at which a servo may use its effort limit [rad or m]. A joint at 2 rad/s moves so far in 5 ms, the period of the feedback: a stiffer servo
+# saturates between two commands.
+LINEAR = 0.01
 # The time in which a motor without load reaches its velocity limit with its effort limit [s]: its inertia is effort times this / velocity.
 MOTOR_TIME = 0.015
 # The moments of inertia of a body that is described as a point, as a fraction of its mass times l^2. The value is that
@@ -108,10 +111,15 @@ class Robot:
         """Adds the motor of each joint."""
         model = self.model
         self.points, mass, length = [], model.body_subtreemass[self.torso], LENGTH * self.height
-        self.stiffness = numpy.full(model.nu, servo[0] * mass * GRAVITY * length)
-        self.damping = numpy.full(model.nu, servo[1] * mass * math.sqrt(GRAVITY) * length**1.5)
-        self.armature = servo[2] * mass * length**2
-        self.described = numpy.zeros(model.nu, dtype=bool) if model.nuser_actuator < 2 else model.actuator_user[:, 1] == 1.0
+        units = mass * GRAVITY * length, mass * math.sqrt(GRAVITY) * length**1.5, mass * length**2
+        stiffness, damping, self.armature = (factor * unit for factor, unit in zip(servo or SERVO, units))
+        self.stiffness, self.damping = numpy.full(model.nu, stiffness), numpy.full(model.nu, damping)
+        self.described = numpy.zeros(model.nu, dtype=bool)
+        if servo is None:
+            weaken = numpy.where(model.actuator_forcelimited, model.actuator_forcerange[:, 1] / (LINEAR * stiffness), 1.0).clip(max=1.0)
+            self.stiffness, self.damping = weaken * stiffness, weaken * damping
+            if model.nuser_actuator > 1:
+                self.described = model.actuator_user[:, 1] == 1.0
         for body in range(1, model.nbody):
             if model.body_mass[body] > 0.01 * mass and max(model.body_inertia[body]) < 1e-6 * mass * length**2:
                 model.body_inertia[body] = POINT * model.body_mass[body] * length**2
@@ -121,7 +129,7 @@ class Robot:
             if self.described[actuator]:
                 self.take(actuator, dof)
             else:
-                model.dof_armature[dof] = max(model.dof_armature[dof], self.inertia(actuator))
+                model.dof_armature[dof] = self.inertia(actuator, model.dof_armature[dof])
         self.nominal = self.stiffness.copy()
         self.stiffness *= gain
         model.actuator_gainprm[:, 0] = self.stiffness
@@ -136,15 +144,18 @@ class Robot:
             damping = 2 * math.sqrt(stiffness * model.dof_armature[dof])
         self.stiffness[actuator], self.damping[actuator] = stiffness, damping
 
-    def inertia(self, actuator):
-        """The inertia of a motor at its joint: by the limits of its effort and its velocity (`user`) where there are both, else by the robot's size."""
+    def inertia(self, actuator, described):
+        """The inertia of a motor at its joint: that of the description (`armature`), else by the limits of its effort and its velocity (`user`), else by the
+        robot's size."""
         model = self.model
         speed = model.actuator_user[actuator, 0] if model.nuser_actuator else 0.0
+        # The servo's own frequency is at most 1 / (2 STEP): MuJoCo integrates this stably.
+        least = self.stiffness[actuator] * (2 * STEP) ** 2
+        if described > 0.0:
+            return max(described, least)
         if speed == 0.0 or not model.actuator_forcelimited[actuator]:
             return self.armature
-        effort = model.actuator_forcerange[actuator, 1]
-        # The servo's own frequency is at most 1 / (2 STEP): MuJoCo integrates this stably.
-        return min(max(MOTOR_TIME * effort / speed, self.stiffness[actuator] * (2 * STEP) ** 2), self.armature)
+        return min(max(MOTOR_TIME * model.actuator_forcerange[actuator, 1] / speed, least), self.armature)
 
     def motors(self):
         """The stiffness, damping and inertia of each motor."""
@@ -393,7 +404,7 @@ def arguments():
     parser.add_argument("walk", help="CSV of `groebot walk`")
     parser.add_argument("answer", help="where the answer goes, CSV")
     parser.add_argument("--feet", type=lambda text: text.split(","), default="l_sole,r_sole", help="the links of the soles")
-    parser.add_argument("--servo", type=numbers, default=SERVO, help="stiffness, damping, armature by the size of the robot")
+    parser.add_argument("--servo", type=numbers, help="stiffness, damping, armature by the size of the robot, instead of those described and those of LINEAR")
     parser.add_argument("--friction", type=float, default=0.8)
     parser.add_argument("--slope", type=numbers, default="0,0", help="how far the floor is turned about x and y [degrees]")
     parser.add_argument("--mass", type=float, default=1.0, help="all masses times this")
