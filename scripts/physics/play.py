@@ -30,10 +30,13 @@ except ImportError as error:
 
 STEP = 0.002
 GRAVITY = 9.80665
-# Servo parameters, scaled by the robot's size. m is its mass, and l is 0.63 of the height of its torso: kp in m g l, damping in m g^0.5 l^1.5, armature in m
-# l^2. For NAO (m g l = 10.3 Nm) they are 308 Nm/rad, 2.2 Nms/rad and 0.043 kg m^2.
-SERVO = "30,1.5,0.21"
+# Servo parameters of joints without described gains, scaled by the robot's size. m is its mass, and l is 0.63 of the height of its torso: kp in m g l, damping
+# in m g^0.5 l^1.5, armature in m l^2. For NAO (m g l = 10.3 Nm) they are 308 Nm/rad, 2.2 Nms/rad and 0.043 kg m^2.
+SERVO = 30.0, 1.5, 0.21
 LENGTH = 0.63
+# The least error at which a servo may use its effort limit [rad or m]. A joint at 2 rad/s moves so far in 5 ms, the period of the feedback: a stiffer servo
+# saturates between two commands.
+LINEAR = 0.01
 # The time in which a motor without load reaches its velocity limit with its effort limit [s]: its inertia is effort times this / velocity.
 MOTOR_TIME = 0.015
 # The moments of inertia of a body that is described as a point, as a fraction of its mass times l^2. The value is that
@@ -108,28 +111,61 @@ class Robot:
         """Adds the motor of each joint."""
         model = self.model
         self.points, mass, length = [], model.body_subtreemass[self.torso], LENGTH * self.height
-        self.stiffness = servo[0] * mass * GRAVITY * length * gain
-        self.damping = servo[1] * mass * math.sqrt(GRAVITY) * length**1.5
-        self.armature = servo[2] * mass * length**2
+        units = mass * GRAVITY * length, mass * math.sqrt(GRAVITY) * length**1.5, mass * length**2
+        stiffness, damping, self.armature = (factor * unit for factor, unit in zip(servo or SERVO, units))
+        self.stiffness, self.damping = numpy.full(model.nu, stiffness), numpy.full(model.nu, damping)
+        self.described = numpy.zeros(model.nu, dtype=bool)
+        if servo is None:
+            weaken = numpy.where(model.actuator_forcelimited, model.actuator_forcerange[:, 1] / (LINEAR * stiffness), 1.0).clip(max=1.0)
+            self.stiffness, self.damping = weaken * stiffness, weaken * damping
+            if model.nuser_actuator > 1:
+                self.described = model.actuator_user[:, 1] == 1.0
         for body in range(1, model.nbody):
             if model.body_mass[body] > 0.01 * mass and max(model.body_inertia[body]) < 1e-6 * mass * length**2:
                 model.body_inertia[body] = POINT * model.body_mass[body] * length**2
                 self.points.append(model.body(body).name)
         for actuator in range(model.nu):
             dof = model.jnt_dofadr[model.actuator_trnid[actuator, 0]]
-            model.actuator_gainprm[actuator, 0] = self.stiffness
-            model.actuator_biasprm[actuator, 1:3] = -self.stiffness, -self.damping
-            model.dof_armature[dof] = max(model.dof_armature[dof], self.inertia(actuator))
+            if self.described[actuator]:
+                self.take(actuator, dof)
+            else:
+                model.dof_armature[dof] = self.inertia(actuator, model.dof_armature[dof])
+        self.nominal = self.stiffness.copy()
+        self.stiffness *= gain
+        model.actuator_gainprm[:, 0] = self.stiffness
+        model.actuator_biasprm[:, 1], model.actuator_biasprm[:, 2] = -self.stiffness, -self.damping
 
-    def inertia(self, actuator):
-        """The inertia of a motor at its joint: by the limits of its effort and its velocity (`user`) where there are both, else by the robot's size."""
+    def take(self, actuator, dof):
+        """Takes the gains of the description. A servo without any damping is critically damped; the inertia is at least that which MuJoCo integrates stably."""
+        model, stiffness = self.model, self.model.actuator_gainprm[actuator, 0]
+        model.dof_armature[dof] = max(model.dof_armature[dof], stiffness * STEP**2)
+        damping = -model.actuator_biasprm[actuator, 2]
+        if damping == 0.0 and model.dof_damping[dof] == 0.0:
+            damping = 2 * math.sqrt(stiffness * model.dof_armature[dof])
+        self.stiffness[actuator], self.damping[actuator] = stiffness, damping
+
+    def inertia(self, actuator, described):
+        """The inertia of a motor at its joint: that of the description (`armature`), else by the limits of its effort and its velocity (`user`), else by the
+        robot's size."""
         model = self.model
         speed = model.actuator_user[actuator, 0] if model.nuser_actuator else 0.0
+        # The servo's own frequency is at most 1 / (2 STEP): MuJoCo integrates this stably.
+        least = self.stiffness[actuator] * (2 * STEP) ** 2
+        if described > 0.0:
+            return max(described, least)
         if speed == 0.0 or not model.actuator_forcelimited[actuator]:
             return self.armature
-        effort = model.actuator_forcerange[actuator, 1]
-        # The servo's own frequency is at most 1 / (2 STEP): MuJoCo integrates this stably.
-        return min(max(MOTOR_TIME * effort / speed, self.stiffness * (2 * STEP) ** 2), self.armature)
+        return min(max(MOTOR_TIME * model.actuator_forcerange[actuator, 1] / speed, least), self.armature)
+
+    def motors(self):
+        """The stiffness, damping and inertia of each motor."""
+        joints = self.model.actuator_trnid[:, 0]
+        inertias = self.model.dof_armature[self.model.jnt_dofadr[joints]]
+        rows = zip(self.names, self.stiffness, self.damping, inertias, self.described)
+        return [
+            {"joint": name, "stiffness": float(k), "damping": float(d), "armature": float(inertia), "described": bool(described)}
+            for name, k, d, inertia, described in rows
+        ]
 
     def command(self, time):
         """Sets the commands of the servos: those of the feedback, or by linear interpolation between rows."""
@@ -204,8 +240,7 @@ class Feedback:
         self.next, self.late, self.random, self.noise = 0.0, [], numpy.random.default_rng(0), given.noise
         self.sums, self.count = numpy.zeros((2, 6)), 0
         self.sides = {geom: side for side in (0, 1) for geom in robot.shapes[side]}
-        nominal = robot.stiffness / (given.gain * given.mass)
-        print(json.dumps({"joints": robot.names, "stiffness": nominal}), flush=True)
+        print(json.dumps({"joints": robot.names, "stiffness": robot.nominal.tolist()}), flush=True)
 
     def command(self, time):
         robot = self.robot
@@ -369,7 +404,7 @@ def arguments():
     parser.add_argument("walk", help="CSV of `groebot walk`")
     parser.add_argument("answer", help="where the answer goes, CSV")
     parser.add_argument("--feet", type=lambda text: text.split(","), default="l_sole,r_sole", help="the links of the soles")
-    parser.add_argument("--servo", type=numbers, default=SERVO, help="stiffness, damping, armature by the size of the robot")
+    parser.add_argument("--servo", type=numbers, help="stiffness, damping, armature by the size of the robot, instead of those described and those of LINEAR")
     parser.add_argument("--friction", type=float, default=0.8)
     parser.add_argument("--slope", type=numbers, default="0,0", help="how far the floor is turned about x and y [degrees]")
     parser.add_argument("--mass", type=float, default=1.0, help="all masses times this")
@@ -390,8 +425,7 @@ def main():
     table, fell = play(robot, filming(given.frames) if given.frames else None)
     table.write(given.answer, remarks)
     told = {
-        "mujoco": mujoco.__version__, "fell": fell, "stiffness": robot.stiffness, "damping": robot.damping,
-        "armature": robot.armature, "mass": robot.weight / GRAVITY, "points": robot.points,
+        "mujoco": mujoco.__version__, "fell": fell, "motors": robot.motors(), "mass": robot.weight / GRAVITY, "points": robot.points,
     }
     print(json.dumps(told))
 

@@ -18,7 +18,7 @@ const LOST: &str = "lost\n";
 #[derive(Deserialize)]
 struct Motors {
     joints: Vec<String>,
-    stiffness: f64,
+    stiffness: Vec<f64>,
 }
 
 /// A stabiliser and the joints of the simulation.
@@ -62,8 +62,15 @@ impl Feedback {
         let motors: Motors = serde_json::from_str(line).map_err(|error| {
             Error::new(ErrorKind::Syntax, format!("the output of the simulation is not understood: {error}"))
         })?;
-        self.stabilizer = self.stabilizer.clone().stiffness(motors.stiffness);
         self.joints = motors.joints.iter().map(|name| self.walker.biped.joint(name).ok()).collect();
+        // Joints without a motor follow others.
+        let mut stiffness = vec![f64::INFINITY; self.walker.biped.joints.len()];
+        for (joint, value) in self.joints.iter().zip(motors.stiffness) {
+            if let Some(joint) = joint {
+                stiffness[*joint] = value;
+            }
+        }
+        self.stabilizer = self.stabilizer.clone().joint_stiffness(stiffness)?;
         Ok(())
     }
 

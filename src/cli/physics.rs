@@ -68,16 +68,34 @@ pub struct ScriptOutput {
     pub mujoco: String,
     /// The time at which the robot fell \[s\].
     pub fell: Option<f64>,
-    /// The stiffness of each motor \[N m/rad\].
-    pub stiffness: f64,
-    /// Its damping \[N m s/rad\].
-    pub damping: f64,
-    /// Its inertia at the joint \[kg m^2\].
-    pub armature: f64,
+    /// The motors.
+    pub motors: Vec<Motor>,
     /// The mass of the robot \[kg\].
     pub mass: f64,
     /// The bodies that are described as points, which get moments of inertia.
     pub points: Vec<String>,
+}
+
+/// A motor: a position servo.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub struct Motor {
+    /// Its joint.
+    pub joint: String,
+    /// Its stiffness \[N m/rad or N/m\].
+    pub stiffness: f64,
+    /// Its damping \[N m s/rad or N s/m\].
+    pub damping: f64,
+    /// Its inertia at the joint \[kg m^2 or kg\].
+    pub armature: f64,
+    /// Whether its gains are those of the description.
+    pub described: bool,
+}
+
+impl ScriptOutput {
+    /// The stiffness of a joint's motor divided by the factor on the masses; infinite without a motor.
+    pub fn stiffness(&self, joint: &str, mass: f64) -> f64 {
+        self.motors.iter().find(|motor| motor.joint == joint).map_or(f64::INFINITY, |motor| motor.stiffness / mass)
+    }
 }
 
 /// A folder with script, robot and walk.

@@ -9,7 +9,7 @@ use super::files::is_json;
 use super::json::FORMAT;
 use super::moving::{self, Motion, described};
 use super::output::{Force, Kind, Output};
-use super::physics::{Case, Push, ScriptOutput, Stage, whole};
+use super::physics::{Case, Motor, Push, ScriptOutput, Stage, whole};
 use super::progress::{Limits, Session, seconds};
 use super::walker::{self, Named, Shod, SoleArguments};
 use super::{Halt, Outcome, console};
@@ -146,7 +146,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
     let (answer, result) = stage.play(&nominal, feedback.as_mut(), &session.watch)?;
     drop(session);
-    let compared = Comparison::of(&plan, &answer, result.stiffness / nominal.mass)?;
+    let compared = Comparison::of(&plan, &answer, |joint| result.stiffness(joint, nominal.mass))?;
     let usage = feedback.as_ref().map(|feedback| Usage::of(feedback.biped(), &answer)).transpose()?;
     arguments.write(&output, &plan, &answer, &legs)?;
     if arguments.json {
@@ -321,7 +321,7 @@ fn varied(
     let one = |(done, case): (usize, &Case)| {
         watch.report("runs", done, cases.len() - done);
         let (answer, result) = stage.play(case, feedback.cloned().as_mut(), watch)?;
-        let compared = Comparison::of(plan, &answer, result.stiffness / case.mass)?;
+        let compared = Comparison::of(plan, &answer, |joint| result.stiffness(joint, case.mass))?;
         Ok(Run { case: *case, result, compared })
     };
     cases.iter().enumerate().map(one).collect()
@@ -370,13 +370,26 @@ fn verdict(result: &ScriptOutput) -> String {
 }
 
 fn motors(result: &ScriptOutput) -> String {
-    let ScriptOutput { stiffness, damping, armature, .. } = result;
     let points = if result.points.is_empty() {
         String::new()
     } else {
         format!("  moments         assumed of {}, which is described as a point\n", result.points.join(", "))
     };
-    format!("{points}  motors          {stiffness:.1} N m/rad, {damping:.3} N m s/rad, {armature:.4} kg m^2\n")
+    let range = |of: fn(&Motor) -> f64, digits: usize| {
+        let (low, high) = result
+            .motors
+            .iter()
+            .map(of)
+            .fold((f64::INFINITY, 0.0), |(low, high), value| (value.min(low), value.max(high)));
+        if low < high { format!("{low:.digits$} to {high:.digits$}") } else { format!("{high:.digits$}") }
+    };
+    let (stiffness, damping) = (range(|motor| motor.stiffness, 1), range(|motor| motor.damping, 3));
+    let armature = range(|motor| motor.armature, 4);
+    let described = match result.motors.iter().filter(|motor| motor.described).count() {
+        0 => String::new(),
+        count => format!("; gains of {count} of {} from the description", result.motors.len()),
+    };
+    format!("{points}  motors          {stiffness} N m/rad, {damping} N m s/rad, {armature} kg m^2{described}\n")
 }
 
 fn bad(text: &str) -> Error {

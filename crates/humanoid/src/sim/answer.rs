@@ -72,17 +72,17 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Compares sample by sample until the simulation ends. `stiffness` is that of all motors \[N m/rad\], divided by
-    /// the factor on the masses. The plan may have torques as `tau:JOINT`, the simulation must.
+    /// Compares sample by sample until the simulation ends. `stiffness` is that of each joint's motor by its name \[N m/rad\],
+    /// divided by the factor on the masses. The plan may have torques as `tau:JOINT`, the simulation must.
     ///
     /// # Errors
     /// [`ErrorKind::MissingKey`] for tracks that a walk or its simulation must have.
-    pub fn of(plan: &Trajectory, answer: &Trajectory, stiffness: f64) -> Result<Self> {
+    pub fn of(plan: &Trajectory, answer: &Trajectory, stiffness: impl Fn(&str) -> f64) -> Result<Self> {
         let soles = soles(plan)?;
         let samples = answer.times.len().min(plan.times.len());
         let joints =
             (0..plan.joints.len()).filter(|joint| (1..samples).any(|row| plan.q[row][*joint] != plan.q[0][*joint]));
-        let joints = joints.map(|joint| compared(plan, answer, joint, stiffness)).collect::<Result<_>>()?;
+        let joints = joints.map(|joint| compared(plan, answer, joint, &stiffness)).collect::<Result<_>>()?;
         let own = self::soles(answer)?;
         let (landed, lift) = landings(answer, own)?;
         let planned =
@@ -127,8 +127,14 @@ fn missing(name: &str) -> Error {
     Error::new(ErrorKind::MissingKey, format!("there is no `{name}`"))
 }
 
-fn compared(plan: &Trajectory, answer: &Trajectory, joint: usize, stiffness: f64) -> Result<JointComparison> {
+fn compared(
+    plan: &Trajectory,
+    answer: &Trajectory,
+    joint: usize,
+    stiffness: &impl Fn(&str) -> f64,
+) -> Result<JointComparison> {
     let name = &plan.joints[joint].name;
+    let stiffness = stiffness(name);
     let own = answer.joints.iter().position(|own| own.name == *name).ok_or_else(|| missing(&format!("q:{name}")))?;
     let key = format!("tau:{name}");
     let torques = figure(answer, &key).ok_or_else(|| missing(&key))?;

@@ -2,6 +2,7 @@
 
 use nalgebra::{Isometry3, Point2, Translation3, UnitQuaternion, Vector2, Vector3};
 
+use super::descent::{Descent, least};
 use super::distribution::{Part, distribute, within};
 use super::estimate::{Estimate, Observer, PRESSED};
 use super::floor::Floor;
@@ -27,11 +28,6 @@ const RETURN: f64 = 0.1;
 const FADE: f64 = 2.0;
 /// The least distance of the desired ZMP from the border of the support, as a fraction of half of the sole's width.
 const MARGIN: f64 = 0.15;
-/// How much higher the torso could be where a leg is stretched most, the most by which it is lowered for that, and the accuracy of this, as fractions of the
-/// height of the centre of mass.
-const ROOM: f64 = 0.002;
-const LOWEST: f64 = 0.1;
-const EXACT: f64 = 1e-5;
 /// A greater change of a joint within one step of the law is a jump to another solution \[rad\].
 const JUMP: f64 = 0.5;
 /// Longest time between two steps of the law that is integrated \[s\].
@@ -60,10 +56,11 @@ pub struct Stabilizer {
     floor: Floor,
     /// The displacement of the torso \[m\].
     sway: Vector2<f64>,
-    /// The stiffness of the joints' position controllers \[N m/rad\].
-    stiffness: Option<f64>,
+    /// The stiffness of each joint's position controller \[N m/rad or N/m\].
+    stiffness: Option<Vec<f64>>,
     /// How much higher the left sole is than planned, and the right one lower \[m\].
     height: f64,
+    descent: Descent,
     /// How much later in the plan the walk is than the time of the states \[s\], and the speed of the plan.
     ahead: f64,
     speed: f64,
@@ -93,6 +90,7 @@ impl Stabilizer {
             lean: Vector2::zeros(),
             sway: Vector2::zeros(),
             height: 0.0,
+            descent: Descent::default(),
             ahead: 0.0,
             speed: 1.0,
         })
@@ -108,8 +106,34 @@ impl Stabilizer {
     /// Sets the stiffness of position controllers without integral action \[N m/rad\]: the targets then contain the deflection of the joints under the weight.
     #[must_use]
     pub fn stiffness(mut self, stiffness: f64) -> Self {
-        self.stiffness = Some(stiffness);
+        self.stiffness = Some(vec![stiffness; self.walker.biped.joints.len()]);
         self
+    }
+
+    /// Sets the stiffness of each joint's controller \[N m/rad; N/m of a prismatic joint\], in the order of `Biped::joints`; infinite for one without
+    /// deflection. Otherwise same as [`Stabilizer::stiffness`].
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for another number of joints, and for a stiffness that is not positive.
+    pub fn joint_stiffness(mut self, stiffness: Vec<f64>) -> Result<Self> {
+        let biped = &self.walker.biped;
+        if stiffness.len() != biped.joints.len() {
+            let text = format!(
+                "there are {} numbers of stiffness; {} has {} joints",
+                stiffness.len(),
+                biped.name,
+                biped.joints.len()
+            );
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        if let Some((value, joint)) =
+            stiffness.iter().zip(&biped.joints).find(|(value, _)| value.is_nan() || **value <= 0.0)
+        {
+            let text = format!("the stiffness of `{}` is {value}; give a positive number", joint.name);
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        self.stiffness = Some(stiffness);
+        Ok(self)
     }
 
     /// The joint targets at a state. The states of a walk are given in the order of time, for example at 200 Hz.
@@ -136,11 +160,12 @@ impl Stabilizer {
         self.turn_soles(&plan, &seen, &parts, dt);
         self.straighten(&plan, &seen, dt);
         self.adapt_heights(&plan, &seen, &parts, dt);
-        let (mut posture, soles) = self.posture(&plan)?;
+        let (mut posture, soles) = self.posture(&plan, dt)?;
         self.last = posture.clone();
-        if let Some(stiffness) = self.stiffness {
+        if let Some(stiffness) = &self.stiffness {
             let torques = static_torques(&self.walker.biped, &posture, &soles, &parts)?;
-            posture.q.iter_mut().zip(torques).for_each(|(value, torque)| *value += torque / stiffness);
+            let sags = torques.into_iter().zip(stiffness).map(|(torque, stiffness)| torque / stiffness);
+            posture.q.iter_mut().zip(sags).for_each(|(value, sag)| *value += sag);
         }
         Ok(self.targets(posture, state.time))
     }
@@ -236,7 +261,7 @@ impl Stabilizer {
     }
 
     /// The corrected posture, and the soles in it.
-    fn posture(&self, plan: &Instant) -> Result<(Posture, [Pose; 2])> {
+    fn posture(&mut self, plan: &Instant, dt: f64) -> Result<(Posture, [Pose; 2])> {
         let heights = [self.height, -self.height];
         let soles = [0, 1].map(|side| {
             let tilt = UnitQuaternion::from_scaled_axis(Vector3::new(self.tilts[side].x, self.tilts[side].y, 0.0));
@@ -249,40 +274,23 @@ impl Stabilizer {
         let torso = Pose::from_parts(sway * planned.translation, lean * planned.rotation);
         let last = Posture { world_from_torso: torso, q: self.held(plan) };
         let lowered = |by: f64| self.stand(&soles, &(Translation3::new(0.0, 0.0, -by) * torso), &last);
-        let near = Self::lowering(plan.height(), |by| lowered(by).is_ok_and(|posture| self.is_near(&posture)));
-        let lower = near.or_else(|| Self::lowering(plan.height(), |by| lowered(by).is_ok()));
-        Ok((lowered(lower.unwrap_or(0.0))?, soles))
+        let comes_near = |by: f64| lowered(by).ok().filter(|posture| self.is_near(posture));
+        let needed = least(plan.height(), |by| comes_near(by).is_some());
+        let Some(needed) = needed else {
+            let by = least(plan.height(), |by| lowered(by).is_ok()).unwrap_or(0.0);
+            return Ok((lowered(by)?, soles));
+        };
+        let mut descent = self.descent;
+        let posture = comes_near(descent.follow(needed, plan.height(), dt));
+        let posture = posture.map_or_else(|| lowered(needed), Ok)?;
+        self.descent = descent;
+        Ok((posture, soles))
     }
 
     /// Whether the legs come from their last posture without a jump: out of its reach, a leg may have solutions with another hip or ankle.
     fn is_near(&self, posture: &Posture) -> bool {
         let legs = self.walker.biped.feet.iter().flat_map(|foot| &foot.joints);
         legs.into_iter().all(|joint| angle::difference(posture.q[*joint], self.last.q[*joint]).abs() < JUMP)
-    }
-
-    /// How much the torso is lowered: a stretched leg cannot reach a corrected sole. With this much the soles would be in reach of a torso that is higher by a
-    /// little, so that knees do not become straight. `reaches` says whether they are in reach with the torso lowered by so much.
-    fn lowering(height: f64, reaches: impl Fn(f64) -> bool) -> Option<f64> {
-        let (room, most) = (ROOM * height, LOWEST * height);
-        let (mut short, mut enough, mut step) = (-room, -room, room);
-        while !reaches(enough) {
-            if enough > most {
-                return None;
-            }
-            (short, enough, step) = (enough, enough + step, 2.0 * step);
-        }
-        if enough == -room {
-            return Some(0.0);
-        }
-        while enough - short > EXACT * height {
-            let middle = 0.5 * (short + enough);
-            if reaches(middle) {
-                enough = middle;
-            } else {
-                short = middle;
-            }
-        }
-        Some(enough + room)
     }
 
     /// The last joint values of the legs, and the planned ones of all other joints.

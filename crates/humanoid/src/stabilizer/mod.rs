@@ -9,6 +9,7 @@
 //! A. Albu-Schaeffer, "Three-dimensional bipedal walking control based on divergent component of motion", IEEE Trans. on Robotics 31 (2015);
 //! S. Caron, A. Kheddar, O. Tempier, "Stair climbing stabilization of the HRP-4 humanoid robot using whole-body admittance control", ICRA 2019.
 
+mod descent;
 mod distribution;
 mod estimate;
 mod floor;

@@ -51,7 +51,7 @@ fn walk(ahead: f64, aside: f64, knee: f64, torque: f64) -> Trajectory {
 #[test]
 fn an_answer_is_seen_beside_its_plan() {
     let (plan, answer) = (walk(0.2, 0.0, 0.5, 10.0), walk(0.16, 0.004, 0.48, 12.0));
-    let compared = Comparison::of(&plan, &answer, 500.0).unwrap();
+    let compared = Comparison::of(&plan, &answer, |_| 500.0).unwrap();
     let near = |value: f64, wanted: f64| assert!((value - wanted).abs() < 1e-12, "{value} for {wanted}");
     assert_eq!(compared.joints.len(), 1, "the neck does not move");
     let knee = &compared.joints[0];
@@ -77,7 +77,7 @@ fn an_answer_is_seen_beside_its_plan() {
 #[test]
 fn missing_tracks_are_reported() {
     let plan = walk(0.2, 0.0, 0.5, 10.0);
-    let of = |answer: &Trajectory| Comparison::of(&plan, answer, 500.0).unwrap_err();
+    let of = |answer: &Trajectory| Comparison::of(&plan, answer, |_| 500.0).unwrap_err();
     let mut lame = plan.clone();
     lame.contacts.pop();
     assert_eq!(of(&lame).kind(), ErrorKind::MissingKey);
@@ -86,6 +86,6 @@ fn missing_tracks_are_reported() {
     assert!(of(&blind).to_string().contains("tau:Knee"));
     let mut without = plan.clone();
     without.figures.retain(|figure| !figure.name.starts_with("tau:"));
-    let compared = Comparison::of(&without, &plan, 500.0).unwrap();
+    let compared = Comparison::of(&without, &plan, |_| 500.0).unwrap();
     assert_eq!(compared.joints[0].sag, None, "the plan tells no torques");
 }

@@ -26,6 +26,7 @@ pub fn check_joint(joint: &Joint) -> Result<()> {
     let law = joint.mimic.iter().flat_map(|mimic| [double(&mimic.multiplier), double(&mimic.offset)]);
     let motor =
         [joint.speed, joint.effort].into_iter().flatten().chain([joint.damping, joint.friction, joint.armature]);
+    let motor = motor.chain(joint.servo.iter().flat_map(|servo| [servo.stiffness, servo.damping]));
     let numbers = [
         ("origin", frame(&joint.origin)),
         ("axis", joint.axis.iter().map(double).collect()),

@@ -129,6 +129,8 @@ pub struct Joint {
     pub friction: f64,
     /// The rotor inertia reflected to the joint \[kg m^2 or kg\].
     pub armature: f64,
+    /// Its position servo, if the description has one (MJCF).
+    pub servo: Option<Servo>,
     /// The law of a mimic joint.
     pub mimic: Option<Mimic>,
     /// Notes of the reader about its numbers.
@@ -154,6 +156,7 @@ impl Joint {
             damping: 0.0,
             friction: 0.0,
             armature: 0.0,
+            servo: None,
             mimic: None,
             notes: Vec::new(),
             line: None,
@@ -165,6 +168,15 @@ impl Joint {
         let error = Error::new(kind, format!("joint `{}`: {message}", shown(&self.name)));
         if let Some(line) = self.line { error.at_line(line) } else { error }
     }
+}
+
+/// A position servo at a joint: torque = stiffness (target - value) - damping velocity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Servo {
+    /// \[N m/rad or N/m\]
+    pub stiffness: f64,
+    /// \[N m s/rad or N s/m\]
+    pub damping: f64,
 }
 
 /// An actuator and the joints that it moves. For example NAO has one actuator for two hip joints.

@@ -32,7 +32,7 @@ mod xml_format;
 
 pub(crate) use check::{is_plain, listing, some_among};
 pub use fault::{Fault, Part};
-pub use joint::{Actuator, Joint, JointType, Mimic, Origin};
+pub use joint::{Actuator, Joint, JointType, Mimic, Origin, Servo};
 pub use link::{Link, Mass, Shape, Solid};
 pub use mesh::{Meshes, Surface};
 pub use options::ReadOptions;

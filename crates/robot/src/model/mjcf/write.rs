@@ -12,7 +12,7 @@ use crate::Result;
 use crate::document::shown;
 use crate::model::attributes::{escaped, floats};
 use crate::model::mesh::is_text;
-use crate::model::{Joint, JointType, Link, Meshes, Robot, Shape, Solid, finite};
+use crate::model::{Joint, JointType, Link, Meshes, Robot, Servo, Shape, Solid, finite};
 use crate::spatial::Pose;
 
 /// Maximum depth with increasing indentation.
@@ -78,10 +78,16 @@ impl Robot {
             let name = escaped(&joint.name);
             let force = joint.effort.filter(|effort| *effort > 0.0);
             let force = force.map(|effort| format!(" forcerange=\"-{effort} {effort}\"")).unwrap_or_default();
-            // MJCF has no velocity limits; `user` is for such data.
+            // MJCF has no velocity limits; `user` is for such data: the limit, or 0, and 1 for gains of the description.
             let speed = joint.speed.filter(|speed| *speed > 0.0);
-            let speed = speed.map(|speed| format!(" user=\"{speed}\"")).unwrap_or_default();
-            format!("    <position name=\"{name}\" joint=\"{name}\" kp=\"100\"{force}{speed}/>\n")
+            let (gains, user) = match joint.servo {
+                Some(Servo { stiffness, damping }) => {
+                    (format!("kp=\"{stiffness}\" kv=\"{damping}\""), Some(format!("{} 1", speed.unwrap_or(0.0))))
+                }
+                None => ("kp=\"100\"".to_owned(), speed.map(|speed| speed.to_string())),
+            };
+            let user = user.map(|user| format!(" user=\"{user}\"")).unwrap_or_default();
+            format!("    <position name=\"{name}\" joint=\"{name}\" {gains}{force}{user}/>\n")
         };
         self.leaders().map(servo).collect()
     }
