@@ -3,7 +3,7 @@
 //
 // Task: pose
 // Solutions: up to 8 at a generic target
-// Hash of the input: d584b5857398e423
+// Hash of the input: 6a35dcf5895665b1
 // Type: Transform6D (0x67000001). eetrans: the tip's position; eerot: its rotation matrix by rows.
 // Joints, in order (metres, radians in (-pi, pi]):
 //   Axis1
@@ -169,7 +169,7 @@ IKFAST_API int GetIkType()
 
 IKFAST_API const char *GetKinematicsHash()
 {
-    return "d584b5857398e423";
+    return "6a35dcf5895665b1";
 }
 
 IKFAST_API void ComputeFk(const IkReal *joints, IkReal *eetrans, IkReal *eerot)

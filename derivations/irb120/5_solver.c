@@ -29,7 +29,7 @@
 
 const char *const irb120_input_names[IRB120_INPUTS] = {"px", "py", "pz", "r11", "r12", "r13", "r21", "r22", "r23", "r31", "r32", "r33"};
 const char *const irb120_joint_names[IRB120_JOINTS] = {"Axis1", "Axis2", "Axis3", "Axis4", "Axis5", "Axis6"};
-const gb_real irb120_limits[2 * IRB120_JOINTS] = {-INFINITY, INFINITY, -INFINITY, INFINITY, -INFINITY, INFINITY, -INFINITY, INFINITY, -INFINITY, INFINITY, -INFINITY, INFINITY};
+const gb_real irb120_limits[2 * IRB120_JOINTS] = {(gb_real)-2.8797932657906435, (gb_real)2.8797932657906435, (gb_real)-1.9198621771937625, (gb_real)1.9198621771937625, (gb_real)-1.9198621771937625, (gb_real)1.2217304763960306, (gb_real)-2.792526803190927, (gb_real)2.792526803190927, (gb_real)-3.6651914291880923, (gb_real)0.5235987755982988, (gb_real)-6.981317007977318, (gb_real)6.981317007977318};
 
 /* The rest is for each type of number: this file includes itself. */
 #include "5_solver.c"

@@ -2,7 +2,7 @@
  *
  * - Task: pose
  * - Solutions: up to 8 at a generic target
- * - Hash of the input: d584b5857398e423
+ * - Hash of the input: 6a35dcf5895665b1
  *
  * Target, in order:
  * `px` (m), `py` (m), `pz` (m), `r11` (1), `r12` (1), `r13` (1), `r21` (1), `r22` (1), `r23` (1),

@@ -2,7 +2,7 @@
 //!
 //! - Task: pose
 //! - Solutions: up to 8 at a generic target
-//! - Hash of the input: d584b5857398e423
+//! - Hash of the input: 6a35dcf5895665b1
 //!
 //! Target, in order:
 //! `px` (m), `py` (m), `pz` (m), `r11` (1), `r12` (1), `r13` (1), `r21` (1), `r22` (1), `r23` (1),
@@ -39,7 +39,7 @@ pub const INPUT_NAMES: [&str; INPUTS] = ["px", "py", "pz", "r11", "r12", "r13", 
 /// The names of the joints, in order.
 pub const JOINT_NAMES: [&str; JOINTS] = ["Axis1", "Axis2", "Axis3", "Axis4", "Axis5", "Axis6"];
 /// The least and the greatest value of each joint; infinite where the description has none.
-pub const LIMITS: [[f64; 2]; JOINTS] = [[f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, f64::INFINITY]];
+pub const LIMITS: [[f64; 2]; JOINTS] = [[-2.8797932657906435, 2.8797932657906435], [-1.9198621771937625, 1.9198621771937625], [-1.9198621771937625, 1.2217304763960306], [-2.792526803190927, 2.792526803190927], [-3.6651914291880923, 0.5235987755982988], [-6.981317007977318, 6.981317007977318]];
 
 const FACTS: Facts<'static> = Facts {
     inputs: INPUTS,

@@ -3,7 +3,7 @@
 //
 // Task: pose
 // Solutions: up to 8 at a generic target
-// Hash of the input: f31d2916daf5fa98
+// Hash of the input: 33cb9c3a1c6e0aad
 // Type: Transform6D (0x67000001). eetrans: the tip's position; eerot: its rotation matrix by rows.
 // Joints, in order (metres, radians in (-pi, pi]):
 //   ShoulderPan
@@ -169,7 +169,7 @@ IKFAST_API int GetIkType()
 
 IKFAST_API const char *GetKinematicsHash()
 {
-    return "f31d2916daf5fa98";
+    return "33cb9c3a1c6e0aad";
 }
 
 IKFAST_API void ComputeFk(const IkReal *joints, IkReal *eetrans, IkReal *eerot)

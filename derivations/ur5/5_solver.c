@@ -28,7 +28,7 @@
 
 const char *const ur5_input_names[UR5_INPUTS] = {"px", "py", "pz", "r11", "r12", "r13", "r21", "r22", "r23", "r31", "r32", "r33"};
 const char *const ur5_joint_names[UR5_JOINTS] = {"ShoulderPan", "ShoulderLift", "Elbow", "Wrist1", "Wrist2", "Wrist3"};
-const gb_real ur5_limits[2 * UR5_JOINTS] = {-INFINITY, INFINITY, -INFINITY, INFINITY, -INFINITY, INFINITY, -INFINITY, INFINITY, -INFINITY, INFINITY, -INFINITY, INFINITY};
+const gb_real ur5_limits[2 * UR5_JOINTS] = {(gb_real)-6.283185307179586, (gb_real)6.283185307179586, (gb_real)-6.283185307179586, (gb_real)6.283185307179586, (gb_real)-6.283185307179586, (gb_real)6.283185307179586, (gb_real)-6.283185307179586, (gb_real)6.283185307179586, (gb_real)-6.283185307179586, (gb_real)6.283185307179586, (gb_real)-6.283185307179586, (gb_real)6.283185307179586};
 
 /* The rest is for each type of number: this file includes itself. */
 #include "5_solver.c"

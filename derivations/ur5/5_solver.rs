@@ -2,7 +2,7 @@
 //!
 //! - Task: pose
 //! - Solutions: up to 8 at a generic target
-//! - Hash of the input: f31d2916daf5fa98
+//! - Hash of the input: 33cb9c3a1c6e0aad
 //!
 //! Target, in order:
 //! `px` (m), `py` (m), `pz` (m), `r11` (1), `r12` (1), `r13` (1), `r21` (1), `r22` (1), `r23` (1),
@@ -39,7 +39,7 @@ pub const INPUT_NAMES: [&str; INPUTS] = ["px", "py", "pz", "r11", "r12", "r13", 
 /// The names of the joints, in order.
 pub const JOINT_NAMES: [&str; JOINTS] = ["ShoulderPan", "ShoulderLift", "Elbow", "Wrist1", "Wrist2", "Wrist3"];
 /// The least and the greatest value of each joint; infinite where the description has none.
-pub const LIMITS: [[f64; 2]; JOINTS] = [[f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, f64::INFINITY]];
+pub const LIMITS: [[f64; 2]; JOINTS] = [[-6.283185307179586, 6.283185307179586], [-6.283185307179586, 6.283185307179586], [-6.283185307179586, 6.283185307179586], [-6.283185307179586, 6.283185307179586], [-6.283185307179586, 6.283185307179586], [-6.283185307179586, 6.283185307179586]];
 
 const FACTS: Facts<'static> = Facts {
     inputs: INPUTS,

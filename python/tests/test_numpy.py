@@ -102,12 +102,32 @@ def test_a_missing_file_is_a_file_not_found_error(read, tmp_path):
     assert isinstance(raised.value, groebot.FileError) and not isinstance(raised.value, FileNotFoundError)
 
 
-def test_limits_that_are_not_described_are_an_error(ur5, pose):
-    for call in (lambda: ur5.solve(pose, limits=True), lambda: ur5.nearest(pose, Q, limits=True), lambda: ur5.solve_batch(pose[None], limits=True)):
-        with pytest.raises(BadValueError, match=r"ur5 has no limits of joints; give an array \(6, 2\), or a dict"):
+def test_limits_that_are_not_described_are_an_error():
+    puma = Solver.named("puma")  # The arm of a thesis: it has no maker.
+    pose = puma.forward(Q)
+    for call in (lambda: puma.solve(pose, limits=True), lambda: puma.nearest(pose, Q, limits=True), lambda: puma.solve_batch(pose[None], limits=True)):
+        with pytest.raises(BadValueError, match=r"puma has no limits of joints; give an array \(6, 2\), or a dict"):
             call()
     described = groebot.derive(UR5_URDF)
     assert np.isfinite(described.limits).all() and len(described.solve(described.forward(Q), limits=True)) > 0
+
+
+@pytest.mark.parametrize(
+    ("name", "degrees"),
+    [
+        ("ur5", [(-360, 360)] * 6),
+        # Axis 5 is zero with the tool down, 90 degrees from the maker's zero.
+        ("irb120", [(-165, 165), (-110, 110), (-110, 70), (-160, 160), (-120 - 90, 120 - 90), (-400, 400)]),
+    ],
+)
+def test_named_arms_have_the_limits_of_their_makers(name, degrees):
+    arm = Solver.named(name)
+    np.testing.assert_allclose(np.degrees(arm.limits), degrees, rtol=1e-14)
+    q = np.random.default_rng(3).uniform(*arm.limits.T)
+    within = arm.solve(arm.forward(q), limits=True, as_array=True)
+    assert ((arm.limits[:, 0] <= within) & (within <= arm.limits[:, 1])).all()
+    turns = (within - q) / (2 * np.pi)
+    assert np.abs(turns - turns.round()).max(1).min() < 1e-9
 
 
 def test_given_joints_by_name_and_by_default_from_q0():

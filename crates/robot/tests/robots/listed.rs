@@ -61,3 +61,24 @@ fn an_unknown_name_is_refused_with_similar_ones() {
     assert!(!robots::find("").unwrap_err().message().contains("did you mean"));
     assert_eq!(robots::find("ur5").unwrap().text(), include_str!("../../src/robots/data/ur5.toml"));
 }
+
+/// Limits of the arms that are older than the list: the same robot's in another file, with zero at other angles.
+#[test]
+fn limits_of_the_irb120_are_those_of_its_other_description() {
+    let [ours, theirs] = ["irb120", "abb_irb120"].map(|name| robots::by_name(name).unwrap());
+    let zero = [0.0, 0.0, 0.0, 0.0, std::f64::consts::FRAC_PI_2, 0.0];
+    let flange_from_tool = |q: [f64; 6]| {
+        let other: Vec<f64> = q.iter().zip(zero).map(|(value, zero)| value + zero).collect();
+        theirs.forward(&other).unwrap().inverse() * ours.forward(&q).unwrap()
+    };
+    let mounted = flange_from_tool([0.0; 6]);
+    for q in [[0.3, -0.5, 0.7, 1.1, -1.3, 0.9], [-1.2, 0.8, -0.4, -2.0, 0.2, 3.0]] {
+        let off = flange_from_tool(q).to_homogeneous() - mounted.to_homogeneous();
+        assert!(off.amax() < 1e-12, "{off}");
+    }
+    for ((own, other), zero) in ours.joints().iter().zip(theirs.joints()).zip(zero) {
+        let ((low, high), (other_low, other_high)) = (own.limits.unwrap(), other.limits.unwrap());
+        // Theirs have six digits.
+        assert!((low + zero - other_low).abs() < 1e-5 && (high + zero - other_high).abs() < 1e-5, "{}", own.name);
+    }
+}

@@ -1,0 +1,39 @@
+#!/usr/bin/env bash
+# Makes the wheels of Linux and the source distribution in dist/ of the repository: `python/wheels.sh [TARGET|sdist]...`, by default all of
+# x86_64-unknown-linux-gnu, aarch64-unknown-linux-gnu and sdist. It needs python3 with venv, Rust, and for each target the library of rustup. zig links against
+# glibc 2.17 on any Linux; maturin refuses a wheel with newer symbols. A wheel beyond the limit of size is an error.
+set -euo pipefail
+cd "$(dirname "$0")"
+
+# [bytes]
+limit=7000000
+dist=${DIST:-$PWD/../dist}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+[ "$#" -gt 0 ] || set -- x86_64-unknown-linux-gnu aarch64-unknown-linux-gnu sdist
+
+python3 -m venv "$work"
+"$work/bin/pip" install --quiet --disable-pip-version-check "maturin>=1.9,<2" "ziglang==0.17.*"
+# maturin finds zig by the Python on the path.
+export PATH=$work/bin:$PATH
+mkdir -p "$dist"
+
+wheel() {
+    local made="$work/$1"
+    maturin build --release --locked --zig --compatibility manylinux2014 --compression-level 9 --target "$1" --out "$made"
+    local size
+    size=$(stat --format %s "$made"/*.whl)
+    printf '%s: %d bytes\n' "$(basename "$made"/*.whl)" "$size"
+    if [ "$size" -gt "$limit" ]; then
+        echo "the wheel is larger than $limit bytes" >&2
+        exit 1
+    fi
+    mv "$made"/*.whl "$dist"
+}
+
+for part in "$@"; do
+    case $part in
+        sdist) maturin sdist --out "$dist" ;;
+        *) wheel "$part" ;;
+    esac
+done
