@@ -61,6 +61,7 @@ mod track;
 mod verify;
 mod view;
 mod walk;
+mod walk_json;
 mod walk_request;
 mod walker;
 
