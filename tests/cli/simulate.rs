@@ -25,6 +25,7 @@ pub(super) fn with_python(arguments: &[&str], python: Option<&Path>) -> Ran {
     let output = command.output().unwrap();
     let [out, err] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
     assert!(!err.contains("panicked"), "{err}");
+    super::schema::validate(arguments, &out);
     Ran { code: output.status.code().unwrap(), out, err }
 }
 
