@@ -8,6 +8,7 @@ mod codegen;
 #[cfg(feature = "cli")]
 mod fuzz;
 mod polar;
+mod release;
 
 use proptest::test_runner::{Config, FileFailurePersistence};
 

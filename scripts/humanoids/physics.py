@@ -70,8 +70,8 @@ def simulated(groebot: Path, walk: Path, model: str | Path, options: list[str], 
     if status not in (0, FALLS) or not output:
         return Run("late" if status is None else "refused", seconds, errors=errors)
     told = json.loads(output)
-    planned, walked = told["comparison"]["planned"], told["comparison"]["walked"]
-    off = math.hypot(walked["ahead"] - planned["ahead"], walked["left"] - planned["left"])
+    planned, walked = told["comparison"]["planned"], told["comparison"]["simulated"]
+    off = math.hypot(walked["forward"] - planned["forward"], walked["left"] - planned["left"])
     turned = math.degrees(math.remainder(walked["turn"] - planned["turn"], math.tau))
-    fell = told["run"]["fell"]
+    fell = told["run"]["fall_time"]
     return Run("stands" if fell is None else "falls", seconds, fell, told["run"]["mass"], off, turned)

@@ -194,7 +194,7 @@ struct Page<'a> {
     joints: Vec<&'a str>,
     /// The leader of each mimic joint.
     #[serde(skip_serializing_if = "Option::is_none")]
-    follows: Option<Vec<Option<&'a str>>>,
+    mimics: Option<Vec<Option<&'a str>>>,
     /// Whether the solver completed its work on the target; otherwise solutions may be missing.
     settled: bool,
     solutions: Vec<Entry<'a>>,
@@ -248,7 +248,7 @@ pub fn json(answer: &Answer<'_>, pretty: bool) -> String {
             joints: program.joints.iter().map(|joint| answer.angles.symbol(joint.unit)).collect(),
         },
         joints: program.joints.iter().map(|joint| joint.name.as_str()).collect(),
-        follows: leaders(program.follows().into_iter()),
+        mimics: leaders(program.follows().into_iter()),
         settled: answer.are_settled(),
         solutions: answer.solutions.iter().map(entry).collect(),
         reason: answer.reason.as_deref(),

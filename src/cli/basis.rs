@@ -10,7 +10,7 @@ use super::basis_question::{Question, Required};
 use super::console;
 use super::output::{Force, Kind, Output};
 use super::progress::{Budget, Session};
-use super::{Outcome, basis_cover};
+use super::{Outcome, basis_cover, json};
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::poly::Order;
 use groebot_algebra::poly::system::{Format, MAX_SYSTEM_LENGTH, PolynomialSystem, parse_order};
@@ -63,6 +63,9 @@ pub struct Arguments {
     /// Write the basis to this file
     #[arg(short, long, value_name = "OUT")]
     out: Option<PathBuf>,
+    /// Print the basis and properties of the ideal as JSON instead of the basis and the summary
+    #[arg(long)]
+    json: bool,
     #[command(flatten)]
     budget: Budget,
     #[command(flatten)]
@@ -111,6 +114,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
         output.write(file, basis, &text)?;
     }
     drop(session);
+    if arguments.json {
+        return console::print(&json::text(&answer.json()));
+    }
     if arguments.out.is_none() {
         console::print(&text)?;
     }
@@ -129,13 +135,17 @@ fn write_cover(arguments: &Arguments, output: &Output, session: &Session, start:
         let heading = system.heading.clone().with_order(order).map_err(|error| error.with_context("--order"))?;
         basis_cover::compute(&system, &heading, &session.watch)
     };
-    let (text, summary) = compute().map_err(|error| in_file(error, &arguments.file))?;
+    let basis_cover::Covered { text, summary, json } = compute().map_err(|error| in_file(error, &arguments.file))?;
     match &arguments.out {
         Some(path) => {
             session.watch.check()?;
             output.write(path, Kind::Lines("#"), text)?;
         }
+        None if arguments.json => {}
         None => console::print(&text)?,
+    }
+    if arguments.json {
+        return console::print(&json::text(&json));
     }
     if !arguments.budget.quiet {
         // A closed standard error cannot be reported.

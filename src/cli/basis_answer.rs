@@ -2,13 +2,16 @@
 
 use std::fmt;
 
+use serde_json::{Value, json};
+
 use super::basis_certificate::prove;
 use super::basis_question::Question;
+use super::json::FORMAT;
 use crate::{Result, Watch};
 use groebot_algebra::groebner::f4::MODULUS_LIMIT;
 use groebot_algebra::groebner::modular::{self, Status};
 use groebot_algebra::groebner::{Basis, Options, Settings, basis, basis_modulo_prime, f4_with, parametric};
-use groebot_algebra::number::{BigRational, Field, Rationals, Zp};
+use groebot_algebra::number::{BigRational, Field, Rationals, Ring, Style, Zp};
 use groebot_algebra::poly::system::Heading;
 use groebot_algebra::poly::{Fraction, Fractions, Polynomial, PolynomialRing};
 
@@ -23,6 +26,8 @@ pub struct Answer {
     pub certificate: Option<String>,
     verdict: Verdict,
     heading: Heading,
+    /// The elements of the basis as text.
+    elements: Vec<String>,
     /// Exponents of the leading monomials.
     leads: Vec<Vec<u32>>,
     /// Names of a maximal set of free variables; none for the unit ideal.
@@ -123,6 +128,18 @@ fn with_parameters(
     Ok((found.basis, if found.exact { Verdict::Exact } else { Verdict::Probable }))
 }
 
+impl Verdict {
+    /// Its name in JSON.
+    fn name(self) -> &'static str {
+        match self {
+            Verdict::Proved => "proved",
+            Verdict::Exact => "exact",
+            Verdict::Probable => "probable",
+            Verdict::BeyondChance => "probabilistic_f4",
+        }
+    }
+}
+
 impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
@@ -161,6 +178,7 @@ impl Question {
             verdict: if certificate.is_some() { Verdict::Proved } else { verdict },
             certificate,
             heading: self.target.clone(),
+            elements: kept.polynomials.iter().map(|f| kept.ring.format(f, Style::Text)).collect(),
             leads: kept.leading_monomials().into_iter().map(|m| layout.exponents(m)).collect(),
             free: kept.independent_variables().map(names),
         })
@@ -186,6 +204,26 @@ impl Answer {
         let field = if parameters.is_empty() { field } else { format!("{field}({})", parameters.join(", ")) };
         let elements = if self.leads.len() == 1 { "element" } else { "elements" };
         format!("{} {elements} over {field}, {order}; {}; {}", self.leads.len(), self.ideal(), self.verdict)
+    }
+
+    /// The basis with properties of the ideal, as JSON. The ideal {1} has no dimension, and only an ideal of dimension 0
+    /// has a degree; above [`MAX_DEGREE`] it is not counted.
+    pub fn json(&self) -> Value {
+        let Heading { characteristic, parameters, variables, order, .. } = &self.heading;
+        let degree = self.free.as_ref().filter(|free| free.is_empty()).and_then(|_| self.degree());
+        json!({
+            "format": FORMAT,
+            "characteristic": characteristic,
+            "parameters": parameters,
+            "variables": variables,
+            "order": order.to_string(),
+            "basis": self.elements,
+            "leading_exponents": self.leads,
+            "dimension": self.free.as_ref().map(Vec::len),
+            "free_variables": self.free,
+            "degree": degree,
+            "status": self.verdict.name(),
+        })
     }
 
     fn ideal(&self) -> String {

@@ -61,11 +61,11 @@ fn findings_json(findings: &[Finding], notes: &[String]) -> serde_json::Value {
             Verdict::Fails(error) => (Some(false), error.to_string()),
             Verdict::NotChecked(text) => (None, text.clone()),
         };
-        serde_json::json!({ "what": what, "holds": holds, "text": text })
+        serde_json::json!({ "item": what, "passed": holds, "text": text })
     };
     let holds = findings.iter().all(|finding| finding.error().is_none());
     let findings: Vec<_> = findings.iter().map(one).collect();
-    serde_json::json!({ "format": json::FORMAT, "holds": holds, "findings": findings, "notes": notes })
+    serde_json::json!({ "format": json::FORMAT, "passed": holds, "findings": findings, "notes": notes })
 }
 
 fn page(findings: &[Finding], paint: Paint) -> String {

@@ -7,7 +7,7 @@ use clap::ValueEnum;
 use super::named::CacheArguments;
 use super::output::{Force, Kind, Output};
 use super::solve::read_program;
-use super::{Outcome, console, explain};
+use super::{Outcome, console, explain, json};
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_ik::codegen::c99::Pair;
 use groebot_ik::codegen::{ikfast, is_run_time, is_word, rust, single_file};
@@ -57,6 +57,9 @@ pub struct Arguments {
     /// The prefix of all function names (c) (default: the mechanism's name)
     #[arg(long, value_name = "NAME")]
     prefix: Option<String>,
+    /// Print the paths of the written files as JSON
+    #[arg(long, requires = "output")]
+    json: bool,
     #[command(flatten)]
     force: Force,
 }
@@ -82,13 +85,18 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let in_two = arguments.lang == Language::C && !arguments.single_file;
     let header = if in_two { Some(header_of(path)?) } else { None };
     let output = arguments.force.output([arguments.derivation.as_path()]).expects([Some(path), header.as_ref()])?;
-    match header {
-        None => output.write(path, Kind::Plain, arguments.text()?),
+    match &header {
+        None => output.write(path, Kind::Plain, arguments.text()?)?,
         Some(header) => {
-            let Pair { header, source, .. } = arguments.pair(&header)?;
-            Ok(write_pair(&output, path, [header, source])?)
+            let Pair { header, source, .. } = arguments.pair(header)?;
+            write_pair(&output, path, [header, source])?;
         }
     }
+    if !arguments.json {
+        return Ok(());
+    }
+    let files: Vec<&Path> = header.as_deref().into_iter().chain([path.as_path()]).collect();
+    console::print(&json::text(&json::written(&files)))
 }
 
 /// The path of the header of a C file.

@@ -111,7 +111,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     write_derivation(&source, &folder, &files, arguments.force, &session.watch)?;
     clock.lap("write");
     drop(session);
-    if arguments.quiet {
+    if arguments.quiet && !arguments.json {
         return weak(&checked);
     }
     let names = files.names();

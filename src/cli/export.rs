@@ -1,10 +1,12 @@
 //! `groebot export`: a motion as an animated scene, or a robot in another format.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
 
 use super::output::{Force, Kind};
 use super::walker::{self, SoleArguments};
-use super::{Outcome, console, moving};
+use super::{Outcome, console, json, moving};
 use crate::{Error, ErrorKind, Result};
 use groebot_humanoid::sim::export::Scene;
 use groebot_robot::document::{TEXT_LIMIT, read_text, shown};
@@ -66,6 +68,9 @@ pub struct Arguments {
     /// The output file (default: standard output)
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
+    /// Print the path of the written file as JSON, with notes about parts that are not exported
+    #[arg(long, requires = "out")]
+    json: bool,
     #[command(flatten)]
     force: Force,
 }
@@ -75,25 +80,56 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let read = [Some(&arguments.input), arguments.robot.as_ref()];
     let output =
         arguments.force.output(read.into_iter().flatten().map(PathBuf::as_path)).expects([arguments.out.as_ref()])?;
+    let mut omissions = Omissions::default();
     let bytes = match arguments.to {
-        Format::Urdf | Format::Mjcf | Format::Sdf => arguments.robot()?.into_bytes(),
+        Format::Urdf | Format::Mjcf | Format::Sdf => arguments.robot(&mut omissions)?.into_bytes(),
         Format::Glb if arguments.out.is_none() => {
             return Err(refused("a glb is binary; give its file by -o").into());
         }
-        Format::Glb => arguments.scene()?.to_glb()?,
-        Format::X3d => arguments.scene()?.to_x3d()?.into_bytes(),
-        Format::Wrl => arguments.scene()?.to_wrl()?.into_bytes(),
+        Format::Glb => arguments.scene(&mut omissions)?.to_glb()?,
+        Format::X3d => arguments.scene(&mut omissions)?.to_x3d()?.into_bytes(),
+        Format::Wrl => arguments.scene(&mut omissions)?.to_wrl()?.into_bytes(),
     };
+    if !arguments.json {
+        omissions.print();
+    }
     match &arguments.out {
-        Some(file) => output.write(file, arguments.to.kind(), &bytes),
-        None => console::print(&String::from_utf8_lossy(&bytes)),
+        Some(file) => output.write(file, arguments.to.kind(), &bytes)?,
+        None => console::print(&String::from_utf8_lossy(&bytes))?,
+    }
+    match arguments.out.as_ref().filter(|_| arguments.json) {
+        Some(file) => console::print(&json::text(&omissions.json(file))),
+        None => Ok(()),
     }
 }
 
-/// Reports the parts of the links that are not exported.
-fn report_omissions(robot: &Robot) {
-    let notes = robot.links().iter().flat_map(|link| link.notes.iter().map(|note| (shown(&link.name), note)));
-    notes.for_each(|(link, note)| console::line("note", &format!("link `{link}`: {note}")));
+/// Parts that are not exported.
+#[derive(Default)]
+struct Omissions {
+    /// Those of the description that were not read.
+    notes: Vec<String>,
+    /// Those that the format does not have.
+    warnings: Vec<String>,
+}
+
+impl Omissions {
+    /// Adds those of the links of `robot`.
+    fn add(&mut self, robot: &Robot) {
+        let notes = robot.links().iter().flat_map(|link| link.notes.iter().map(|note| (shown(&link.name), note)));
+        self.notes.extend(notes.map(|(link, note)| format!("link `{link}`: {note}")));
+    }
+
+    fn print(&self) {
+        console::print_notes(&self.notes);
+        self.warnings.iter().for_each(|note| console::line("warning", note));
+    }
+
+    fn json(&self, file: &Path) -> Value {
+        let mut value = json::written(&[file]);
+        value["notes"] = self.notes.as_slice().into();
+        value["warnings"] = self.warnings.as_slice().into();
+        value
+    }
 }
 
 impl Format {
@@ -112,7 +148,7 @@ fn refused(text: &str) -> Error {
 
 impl Arguments {
     /// The robot in a format without motion.
-    fn robot(&self) -> Result<String> {
+    fn robot(&self, omissions: &mut Omissions) -> Result<String> {
         if ["csv", "json", "wrl"].iter().any(|end| moving::ends(&self.input, end)) {
             let text =
                 "urdf, mjcf and sdf describe a robot, not a motion or a scene; give --to glb, x3d or wrl, or a robot";
@@ -126,17 +162,12 @@ impl Arguments {
         let (robot, meshes) = moving::described(&self.input, &self.soles.options())?;
         robot.check().map_err(|error| error.in_file(&self.input))?;
         let robot = if self.soles.is_given() { walker::with_soles(robot, &meshes, &self.soles)?.robot } else { robot };
-        report_omissions(&robot);
+        omissions.add(&robot);
         if self.to == Format::Mjcf {
-            let mut notes = Vec::new();
-            let text = robot.to_mjcf(&meshes, &mut notes).map_err(|error| error.in_file(&self.input))?;
-            notes.iter().for_each(|note| console::line("warning", note));
-            return Ok(text);
+            return robot.to_mjcf(&meshes, &mut omissions.warnings).map_err(|error| error.in_file(&self.input));
         }
         if self.to == Format::Sdf {
-            let mut notes = Vec::new();
-            let text = robot.to_sdf(&mut notes).map_err(|error| error.in_file(&self.input))?;
-            notes.iter().for_each(|note| console::line("warning", note));
+            let text = robot.to_sdf(&mut omissions.warnings).map_err(|error| error.in_file(&self.input))?;
             return self.reread(text, |text| Robot::from_sdf(text, None));
         }
         self.reread(robot.to_urdf(), Robot::from_urdf)
@@ -149,7 +180,7 @@ impl Arguments {
         Ok(text)
     }
 
-    fn scene(&self) -> Result<Scene> {
+    fn scene(&self, omissions: &mut Omissions) -> Result<Scene> {
         let file = &self.input;
         if self.soles.is_given() {
             let text =
@@ -171,10 +202,10 @@ impl Arguments {
             }
             None => moving::robot(file, options)?,
         };
-        report_omissions(&robot);
+        omissions.add(&robot);
         let scene = Scene::of_robot(&robot, self.meshes.then_some(&meshes), motion.as_ref());
         let scene = scene.map_err(|error| error.in_file(file))?;
-        scene.notes.iter().for_each(|note| console::line("warning", note));
+        omissions.warnings.extend_from_slice(&scene.notes);
         Ok(scene)
     }
 }

@@ -3,8 +3,12 @@
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
+use serde_json::{Value, json};
+
 use super::columns::{Columns, Field};
 use super::ends::{IdealEndArguments, TipLink};
+use super::files::is_json;
+use super::json::{self, FORMAT};
 use super::output::{Force, Kind};
 use super::progress::{Limits, Session};
 use super::targets::Reader;
@@ -30,9 +34,12 @@ const POSE: [&str; 7] = ["x", "y", "z", "qx", "qy", "qz", "qw"];
 /// The line for a path whose arcs are unsure.
 const UNSURE: &str = "  Unsure: other solutions within limits may exist at some poses.\n";
 
+/// The line for a robot that has faults.
+const UNCHECKED: &str = "  collisions of links were not checked: parts of the robot have faults\n";
+
 const EXAMPLES: &str = "Examples:
   groebot follow robot.urdf --poses poses.csv -o path.csv
-  groebot follow robot.urdf --base base_link --tip tool0 --poses poses.csv --every 0.01 --json path.json
+  groebot follow robot.urdf --base base_link --tip tool0 --poses poses.csv --every 0.01 -o path.json
 
 poses.csv has the columns x, y, z, qx, qy, qz, qw (metres, quaternion), and optionally time
 (seconds) first. A row of names is optional.
@@ -60,12 +67,12 @@ pub struct Arguments {
     /// The time between two poses, if the file has none [s]; without it joint velocities are unlimited
     #[arg(long, value_name = "SECONDS")]
     every: Option<f64>,
-    /// Write the joint trajectory to this CSV file
+    /// Write the joint trajectory to this file: CSV, or JSON if its name ends in .json
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Write the joint trajectory to this JSON file
-    #[arg(long, value_name = "FILE")]
-    json: Option<PathBuf>,
+    /// Print the summary as JSON
+    #[arg(long)]
+    json: bool,
     /// Fail at a jump, and write nothing
     #[arg(long)]
     strict: bool,
@@ -79,13 +86,14 @@ pub struct Arguments {
 /// Follows the poses and writes the requested files.
 pub fn run(arguments: &Arguments) -> Outcome {
     let output = arguments.force.output([arguments.input.as_path(), arguments.poses.as_path()]);
-    let output = output.expects([arguments.out.as_ref(), arguments.json.as_ref()])?;
+    let output = output.expects([arguments.out.as_ref()])?;
     let input = InputFile::read_with(&arguments.input, &arguments.ends.options())?;
     let ends = arguments.ends.ends()?.or(&input.ends);
     let none = || Error::new(ErrorKind::BadValue, "there is no chain here").in_file(&input.path);
     let chain = input.chain(&ends)?.ok_or_else(none)?;
-    if !arguments.quiet {
-        console::print_notes(&input.ignored(&ends)?);
+    let notes = input.ignored(&ends)?;
+    if !arguments.quiet && !arguments.json {
+        console::print_notes(&notes);
     }
     let (poses, times) = read_poses(&arguments.poses, &chain)?;
     let session = Session::start(Limits { quiet: arguments.quiet, ..Limits::default() })?;
@@ -120,22 +128,40 @@ pub fn run(arguments: &Arguments) -> Outcome {
         return Err(Error::new(ErrorKind::BadValue, text).in_file(&arguments.poses).into());
     }
     if let Some(file) = &arguments.out {
-        output.write(file, Kind::Plain, followed.trajectory.to_csv())?;
+        let trajectory = &followed.trajectory;
+        let text = if is_json(file) { trajectory.to_json().to_string() + "\n" } else { trajectory.to_csv() };
+        output.write(file, Kind::of_motion(file), text)?;
     }
-    if let Some(file) = &arguments.json {
-        output.write(file, Kind::Json, followed.trajectory.to_json().to_string() + "\n")?;
-    }
-    if arguments.quiet {
+    if arguments.quiet && !arguments.json {
         return Ok(());
     }
-    let touches = match &input.description {
-        Description::Robot(robot) if robot.faults().is_empty() => touching(robot, &followed)?,
-        Description::Robot(_) => "  collisions of links were not checked: parts of the robot have faults\n".to_owned(),
-        _ => String::new(),
-    };
-    let doubt = if is_unsure { UNSURE } else { "" };
     let tip = input.path(&ends)?.as_ref().map(TipLink::of_path);
-    console::print(&(TipLink::line(tip.as_ref()) + &summary(&chain, &followed) + doubt + &touches))
+    let shown =
+        Shown { chain: &chain, followed: &followed, is_unsure, collisions: None, tip: tip.as_ref(), notes: &notes };
+    arguments.print(&input.description, shown)
+}
+
+impl Arguments {
+    /// Prints the summary with the collisions of links.
+    fn print<'a>(&self, description: &'a Description, shown: Shown<'a>) -> Outcome {
+        let collisions = match description {
+            Description::Robot(robot) if robot.faults().is_empty() => Some(touching(robot, shown.followed)?),
+            _ => None,
+        };
+        let shown = Shown { collisions, ..shown };
+        if self.json {
+            return console::print(&json::text(&shown.json()));
+        }
+        let unchecked = match description {
+            Description::Robot(_) if shown.collisions.is_none() => UNCHECKED,
+            _ => "",
+        };
+        let touches: String = shown.collisions.iter().flatten().map(Collision::line).collect();
+        let doubt = if shown.is_unsure { UNSURE } else { "" };
+        console::print(
+            &(TipLink::line(shown.tip) + &summary(shown.chain, shown.followed) + doubt + unchecked + &touches),
+        )
+    }
 }
 
 /// The solver of `chain`. If its folder has the solvers with each joint given, these are derived again: the given joint is only that of the main solver.
@@ -239,13 +265,62 @@ fn pose(numbers: &[f64]) -> Result<Pose> {
     pose_of(numbers.try_into().map_err(count)?, ROUNDED)
 }
 
+/// A pair of links that touch.
+struct Collision<'a> {
+    links: [&'a str; 2],
+    /// The index of the first such pose.
+    sample: usize,
+}
+
+impl Collision<'_> {
+    fn line(&self) -> String {
+        let [one, other] = self.links;
+        format!("  links touch: {one} and {other}, from pose {} on\n", self.sample + 1)
+    }
+}
+
+/// A path with all that is reported of it.
+struct Shown<'a> {
+    chain: &'a Chain,
+    followed: &'a Followed,
+    is_unsure: bool,
+    /// `None` if collisions of links were not checked.
+    collisions: Option<Vec<Collision<'a>>>,
+    tip: Option<&'a TipLink>,
+    notes: &'a [String],
+}
+
+impl Shown<'_> {
+    fn json(&self) -> Value {
+        let Followed { trajectory, jumps, .. } = self.followed;
+        let jump = |jump: &Jump| {
+            let joint = &trajectory.joints[jump.joint];
+            let unit = if joint.slides { self.chain.length_unit().symbol() } else { "rad" };
+            json!({ "pose": jump.sample + 1, "joint": joint.name, "step": jump.step, "unit": unit, "reason": jump.why })
+        };
+        let collision = |found: &Collision<'_>| json!({ "links": found.links, "first_pose": found.sample + 1 });
+        let collisions = self.collisions.as_ref().map(|all| all.iter().map(collision).collect::<Vec<_>>());
+        json!({
+            "format": FORMAT,
+            "name": self.chain.name(),
+            "tip_link": self.tip,
+            "poses": trajectory.times.len(),
+            "duration": trajectory.times.last().zip(trajectory.times.first()).map(|(end, start)| end - start),
+            "jumps": jumps.iter().map(jump).collect::<Vec<_>>(),
+            "unsure": self.is_unsure,
+            "collisions": collisions,
+            "notes": self.notes,
+        })
+    }
+}
+
 /// The pairs of links that touch along the path, with the first such pose, all other joints at zero.
-fn touching(robot: &Robot, followed: &Followed) -> Result<String> {
+fn touching<'a>(robot: &'a Robot, followed: &Followed) -> Result<Vec<Collision<'a>>> {
     let model = Model::new(robot)?;
     let clearance = Clearance::new(robot, &model);
     let places = followed.trajectory.joints.iter().map(|joint| model.joint(&joint.name).ok()).collect::<Vec<_>>();
     let mut seen: Vec<[usize; 2]> = Vec::new();
-    let mut text = String::new();
+    let mut collisions = Vec::new();
     for (sample, values) in followed.trajectory.q.iter().enumerate() {
         let mut q = vec![0.0; model.joints().len()];
         for (place, value) in places.iter().zip(values) {
@@ -256,12 +331,11 @@ fn touching(robot: &Robot, followed: &Followed) -> Result<String> {
         for touch in clearance.touching(&model.place(&Pose::identity(), &q)?) {
             if !seen.contains(&touch.links) {
                 seen.push(touch.links);
-                let [one, other] = touch.links.map(|link| &robot.links()[link].name);
-                text += &format!("  links touch: {one} and {other}, from pose {} on\n", sample + 1);
+                collisions.push(Collision { links: touch.links.map(|link| robot.links()[link].name.as_str()), sample });
             }
         }
     }
-    Ok(text)
+    Ok(collisions)
 }
 
 /// A short summary of the path.

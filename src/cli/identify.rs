@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
+use super::json::FORMAT;
 use super::moving::described;
 use super::output::{Force, Kind};
 use super::part::PartArguments;
@@ -65,18 +66,18 @@ struct Report<'a> {
     rows: usize,
     /// The number of torques minus the number of estimates.
     degrees_of_freedom: usize,
-    condition: f64,
+    condition_number: f64,
     /// For each joint.
-    root_mean_square_misses: Vec<(&'a str, f64)>,
+    residual_rms: Vec<(&'a str, f64)>,
     /// For each joint, as a fraction of the torques' standard deviation.
-    unexplained: Vec<(&'a str, f64)>,
+    unexplained_fraction: Vec<(&'a str, f64)>,
     parameters: Vec<Row<'a>>,
     consistent: bool,
     /// As text.
     consistency: String,
     /// The parameters of physically consistent bodies that explain the torques best.
     bodies: Vec<(String, f64)>,
-    good: bool,
+    passed: bool,
     /// Faults of the log.
     findings: Vec<Found<'a>>,
     /// The ignored parts of the robot's file.
@@ -88,10 +89,10 @@ struct Row<'a> {
     name: &'a str,
     value: f64,
     /// Half of the 95 % interval; `None` without degrees of freedom of the noise.
-    confidence: Option<f64>,
+    confidence_95: Option<f64>,
     described: f64,
     /// The value for physically consistent bodies; `None` for friction.
-    of_bodies: Option<f64>,
+    consistent: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -125,7 +126,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         console::print_notes(&report.notes);
         console::print(&text(&report))?;
     }
-    if report.good { Ok(()) } else { Err(Halt::BadData) }
+    if report.passed { Ok(()) } else { Err(Halt::BadData) }
 }
 
 fn read(arguments: &Arguments, equations: &Equations) -> Result<Vec<Logged>> {
@@ -151,26 +152,26 @@ fn report<'a>(found: &'a Identification, rows: usize, joints: &'a [String], name
     let row = |estimate: &'a Estimate, of_bodies: Option<f64>| Row {
         name: &estimate.name,
         value: estimate.value,
-        confidence: estimate.interval,
+        confidence_95: estimate.interval,
         described: estimate.described,
-        of_bodies,
+        consistent: of_bodies,
     };
     let consistency = &found.consistency;
     let base = found.base.iter().zip(&consistency.values).map(|(estimate, value)| row(estimate, Some(*value)));
     let friction = found.friction.iter().flatten().map(|estimate| row(estimate, None));
     let by_joint = |list: &[f64]| joints.iter().map(String::as_str).zip(list.iter().copied()).collect();
     Report {
-        format: 2,
+        format: FORMAT,
         rows,
         degrees_of_freedom: found.freedom,
-        condition: found.condition,
-        root_mean_square_misses: by_joint(&found.misses),
-        unexplained: by_joint(&found.unexplained),
+        condition_number: found.condition,
+        residual_rms: by_joint(&found.misses),
+        unexplained_fraction: by_joint(&found.unexplained),
         parameters: base.chain(friction).collect(),
         consistent: consistency.holds(),
         consistency: in_words(consistency),
         bodies: names.iter().cloned().zip(consistency.bodies.iter().copied()).collect(),
-        good: found.findings.is_empty(),
+        passed: found.findings.is_empty(),
         findings: found.findings.iter().map(finding).collect(),
         notes: Vec::new(),
     }
@@ -201,7 +202,7 @@ fn text(report: &Report<'_>) -> String {
         report.rows,
         report.parameters.len(),
         report.degrees_of_freedom,
-        report.condition,
+        report.condition_number,
         "found",
         "+- (95 %)",
         "of bodies",
@@ -209,15 +210,15 @@ fn text(report: &Report<'_>) -> String {
     );
     let cell = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.6e}"));
     for row in &report.parameters {
-        let interval = row.confidence.map_or_else(|| "-".to_owned(), |half| format!("{half:.2e}"));
-        let (bodies, name) = (cell(row.of_bodies), shown(row.name));
+        let interval = row.confidence_95.map_or_else(|| "-".to_owned(), |half| format!("{half:.2e}"));
+        let (bodies, name) = (cell(row.consistent), shown(row.name));
         text += &format!("{:>14.6e}  {interval:>11}  {bodies:>14}  {:>14.6e}  {name}\n", row.value, row.described);
     }
     if report.degrees_of_freedom == 0 {
         text +=
             "no interval: the log has as many torques as there are parameters, so that its noise cannot be estimated\n";
     }
-    for ((joint, miss), (_, share)) in report.root_mean_square_misses.iter().zip(&report.unexplained) {
+    for ((joint, miss), (_, share)) in report.residual_rms.iter().zip(&report.unexplained_fraction) {
         let (joint, percent) = (shown(joint), 100.0 * share);
         text += &format!("{joint}: torque residual {miss:.3e} rms, {percent:.2} % of the standard deviation\n");
     }
@@ -231,7 +232,7 @@ fn table(report: &Report<'_>) -> String {
     let mut text = "name,value,confidence_95,described,of_bodies\n".to_owned();
     let cell = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
     for row in &report.parameters {
-        let (interval, bodies) = (cell(row.confidence), cell(row.of_bodies));
+        let (interval, bodies) = (cell(row.confidence_95), cell(row.consistent));
         text += &format!("\"{}\",{:?},{interval},{:?},{bodies}\n", row.name, row.value, row.described);
     }
     text

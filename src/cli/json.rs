@@ -1,4 +1,5 @@
-//! The JSON output of `derive`, `info`, `check` and `plan`.
+//! JSON output: its version, the output of `derive`, `info` and `plan`, and reports of written files. docs/cli_schema.json describes the output of all
+//! commands.
 
 use std::path::Path;
 use std::time::Duration;
@@ -16,8 +17,8 @@ use groebot_robot::kinematics::ideal::{RelationKind, Report};
 use groebot_robot::kinematics::screw::Plan;
 use groebot_robot::kinematics::{Chain, ExactVector, Geometry, JointKind};
 
-/// The version of the format of all commands.
-pub const FORMAT: u32 = 1;
+/// The version of docs/cli_schema.json: the key `format` of all commands.
+pub const FORMAT: u32 = 2;
 
 /// The result of a derivation.
 pub struct Derived<'a> {
@@ -40,7 +41,7 @@ impl Derived<'_> {
             "task": program.about.as_ref().map(|_| program.task_text()),
             "inputs": program.inputs.iter().map(|input| input.name.as_str()).collect::<Vec<_>>(),
             "joints": program.joints.iter().map(|joint| joint.name.as_str()).collect::<Vec<_>>(),
-            "follows": leaders(program.follows().into_iter()),
+            "mimics": leaders(program.follows().into_iter()),
             "solutions": self.derivation.dimension(),
             "method": method(self.derivation),
             "ideal": self.source.ideal.as_ref().map(|(_, report)| ideal(report)),
@@ -59,7 +60,7 @@ impl Derived<'_> {
 pub fn given(choice: &Choice) -> Value {
     let candidate = |candidate: &Candidate| {
         let solutions = candidate.plan.map(|[_, count]| count);
-        json!({ "joint": candidate.joint, "share": candidate.share, "solutions": solutions })
+        json!({ "joint": candidate.joint, "fraction": candidate.share, "solutions": solutions })
     };
     json!({ "joints": choice.given, "candidates": choice.candidates.iter().map(candidate).collect::<Vec<_>>() })
 }
@@ -79,11 +80,11 @@ pub fn ideal(report: &Report) -> Value {
         let kind = match relation.kind {
             RelationKind::Parallel => "parallel",
             RelationKind::Perpendicular => "perpendicular",
-            RelationKind::Meeting => "meeting",
+            RelationKind::Meeting => "intersecting",
             RelationKind::Coincident => "coincident",
-            RelationKind::Level => "level",
+            RelationKind::Level => "zero_offset",
         };
-        json!({ "first": relation.joints.start + 1, "last": relation.joints.end, "kind": kind, "by": relation.by })
+        json!({ "first": relation.joints.start + 1, "last": relation.joints.end, "kind": kind, "deviation": relation.by })
     });
     let moved = report.moved.iter();
     let moved = moved.map(|moved| json!({ "joint": moved.joint, "angle": moved.angle, "distance": moved.distance }));
@@ -92,7 +93,7 @@ pub fn ideal(report: &Report) -> Value {
         "deviation": report.deviation(),
         "polishes": !report.is_same(),
         "relations": relations.collect::<Vec<_>>(),
-        "moved": moved.collect::<Vec<_>>(),
+        "corrections": moved.collect::<Vec<_>>(),
     })
 }
 
@@ -104,7 +105,7 @@ fn checked(report: &witness::Report) -> Value {
     });
     json!({
         "targets": summary.rows,
-        "right": summary.rows - summary.failed,
+        "passed": summary.rows - summary.failed,
         "counted_exactly": summary.exact,
         "worst_residual": summary.worst_residual,
         "weak_spots": weak.collect::<Vec<_>>(),
@@ -138,7 +139,7 @@ pub fn chain(described: &Chain, (meant, report): (&Chain, &Report), notes: &[Str
         "tip_link": tip,
         "reach": described.reach(),
         "parallel": geometry.parallel.iter().map(row).collect::<Vec<_>>(),
-        "meeting": meeting.collect::<Vec<_>>(),
+        "intersecting": meeting.collect::<Vec<_>>(),
         "ideal": ideal(report),
         "notes": notes,
     })
@@ -187,6 +188,11 @@ pub fn plan(chain: &Chain, plan: &Plan, notes: &[String], tip: Option<&TipLink>)
         "solutions": plan.most_solutions(),
         "notes": notes,
     })
+}
+
+/// The report of a command whose product is in files: their paths, as given or in the given folder.
+pub fn written(files: &[&Path]) -> Value {
+    json!({ "format": FORMAT, "files": files.iter().map(|file| file.display().to_string()).collect::<Vec<_>>() })
 }
 
 /// `value` as a text of several lines.

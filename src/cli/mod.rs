@@ -61,6 +61,7 @@ mod track;
 mod verify;
 mod view;
 mod walk;
+mod walk_json;
 mod walk_request;
 mod walker;
 
@@ -98,7 +99,8 @@ const EXAMPLES: &str = "Examples:
   groebot track robot.urdf --law computed-torque --trajectory t.csv
 
 Exit status: 0 success, 1 failure, 2 wrong usage, 3 derived and written but with weak spots at
-singular targets, or a bad log (identify), 4 no path exists, 5 the robot falls, 130 interrupted.";
+singular targets, or a bad log (identify), 4 no path exists, 5 the robot falls, 130 interrupted.
+--json of each command: docs/json.md and docs/cli_schema.json describe its keys.";
 
 /// Derives closed-form inverse kinematics of robots, with all solutions and a proof; plans walks and paths
 #[derive(Parser)]

@@ -222,10 +222,10 @@ impl Arguments {
                 let summary = Summary::of(biped, &plan.walk);
                 json_report["points"] = floor::points(&plan.course.path);
                 json_report["length"] = plan.course.path.length().into();
-                json_report["wide"] = plan.course.is_wide.into();
+                json_report["clear_at_every_heading"] = plan.course.is_wide.into();
                 json_report["steps"] = plan.walk.schedule.route.steps.iter().map(step).collect();
                 json_report["seconds"] = summary.duration.into();
-                json_report["rests"] = summary.gait.is_one_step().into();
+                json_report["rests_between_steps"] = summary.gait.is_one_step().into();
                 json_report["margin"] = summary.margin.value.into();
                 let refused = |refusal: &Refusal| {
                     let mut value = step(&refusal.footstep);
@@ -233,7 +233,7 @@ impl Arguments {
                     value["reason"] = refusal.to_string().into();
                     value
                 };
-                json_report["refused"] = plan.refusals.iter().map(refused).collect();
+                json_report["rejected_steps"] = plan.refusals.iter().map(refused).collect();
             }
             Err(blocked) => {
                 json_report["points"] = Value::Null;

@@ -152,7 +152,7 @@ impl Arguments {
                 json_report["points"] = floor::points(path);
                 json_report["length"] = path.length().into();
                 json_report["seconds"] = found.time.into();
-                json_report["bound"] = found.bound.into();
+                json_report["lower_bound"] = found.bound.into();
             }
             Err(enclosure) => {
                 json_report["points"] = Value::Null;

@@ -67,6 +67,7 @@ pub struct ScriptOutput {
     /// The version of MuJoCo.
     pub mujoco: String,
     /// The time at which the robot fell \[s\].
+    #[serde(rename(serialize = "fall_time"))]
     pub fell: Option<f64>,
     /// The motors.
     pub motors: Vec<Motor>,

@@ -4,7 +4,9 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use nalgebra::Point3;
+use serde_json::{Value, json};
 
+use super::json::{self, FORMAT};
 use super::moving::ends;
 use super::named::CacheArguments;
 use super::output::{Force, Kind};
@@ -82,6 +84,9 @@ pub struct Arguments {
     /// The axis normal to the slices (default: one with a single point, else z)
     #[arg(long, value_parser = ["x", "y", "z"], requires = "plot")]
     across: Option<String>,
+    /// Print the summary as JSON
+    #[arg(long)]
+    json: bool,
     #[command(flatten)]
     budget: Budget,
     #[command(flatten)]
@@ -114,11 +119,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
         let across = arguments.across.as_deref().and_then(|name| ["x", "y", "z"].iter().position(|own| *own == name));
         output.write(plot, Kind::Markup, map.to_svg(across))?;
     }
-    if arguments.budget.quiet {
-        Ok(())
-    } else {
-        console::print(&summary(&map, program.redundancy.is_some() && arguments.given.is_empty(), start.elapsed()))
+    let counts = Counts::of(&map, program.redundancy.is_some() && arguments.given.is_empty(), start.elapsed());
+    if arguments.json {
+        return console::print(&json::text(&counts.json(&map)));
     }
+    if arguments.budget.quiet { Ok(()) } else { console::print(&counts.text(&map)) }
 }
 
 impl Arguments {
@@ -166,31 +171,79 @@ fn around(chain: &Chain) -> Option<(Point3<f64>, f64)> {
     Some((ball.middle, ball.radius + travels)).filter(|(_, radius)| *radius > 0.0)
 }
 
-fn summary(map: &ReachMap, is_redundant: bool, time: Duration) -> String {
-    let ReachMap { solver, task, orientations, .. } = map;
-    let (places, reached) = (map.grid.places(), map.entries.iter().filter(|entry| entry.reached > 0).count());
-    let answers: u64 = map.entries.iter().map(|entry| u64::from(entry.answers)).sum();
-    let (targets, solved) = (places * orientations, map.reached());
-    let within = if map.limited { " within limits" } else { "" };
-    let answers = if is_redundant { String::new() } else { format!(", with {answers} answers") };
-    let mut text = format!(
-        "{solver}, {task}: {places} points, {orientations} orientations each, {:.2} s\nreached{within}: {reached} points; {solved} of {targets} targets ({:.1} %){answers}\n",
-        time.as_secs_f64(),
-        100.0 * solved as f64 / targets as f64
-    );
-    if map.open() > 0 {
-        let why = if is_redundant {
-            "may have a solution that was missed"
-        } else {
-            "are on strata that could not be derived"
-        };
-        text += &format!("{} targets {why}; they count as not reached\n", map.open());
+/// The sums over a map.
+struct Counts {
+    points: usize,
+    points_reached: usize,
+    targets: usize,
+    targets_reached: usize,
+    /// The number of solutions; `None` of a redundant arm, whose solutions are curves.
+    solutions: Option<u64>,
+    /// Targets whose solutions are not decided.
+    open: usize,
+    greatest_manipulability: Option<f32>,
+    time: Duration,
+}
+
+impl Counts {
+    fn of(map: &ReachMap, is_redundant: bool, time: Duration) -> Self {
+        let places = map.grid.places();
+        let solutions = || map.entries.iter().map(|entry| u64::from(entry.answers)).sum();
+        let best = || map.entries.iter().map(|entry| entry.best).fold(0.0, f32::max);
+        Counts {
+            points: places,
+            points_reached: map.entries.iter().filter(|entry| entry.reached > 0).count(),
+            targets: places * map.orientations,
+            targets_reached: map.reached(),
+            solutions: (!is_redundant).then(solutions),
+            open: map.open(),
+            greatest_manipulability: (map.measure == Measure::Manipulability).then(best),
+            time,
+        }
     }
-    if map.measure == Measure::Manipulability {
-        let best = map.entries.iter().map(|entry| entry.best).fold(0.0, f32::max);
-        text += &format!("the greatest manipulability is {best:.6} (metres, radians)\n");
+
+    fn text(&self, map: &ReachMap) -> String {
+        let ReachMap { solver, task, orientations, .. } = map;
+        let Counts { points, points_reached, targets, targets_reached, open, .. } = self;
+        let within = if map.limited { " within limits" } else { "" };
+        let answers = self.solutions.map(|count| format!(", with {count} answers")).unwrap_or_default();
+        let mut text = format!(
+            "{solver}, {task}: {points} points, {orientations} orientations each, {:.2} s\nreached{within}: {points_reached} points; {targets_reached} of {targets} targets ({:.1} %){answers}\n",
+            self.time.as_secs_f64(),
+            100.0 * *targets_reached as f64 / *targets as f64
+        );
+        if *open > 0 {
+            let why = match self.solutions {
+                None => "may have a solution that was missed",
+                Some(_) => "are on strata that could not be derived",
+            };
+            text += &format!("{open} targets {why}; they count as not reached\n");
+        }
+        if let Some(best) = self.greatest_manipulability {
+            text += &format!("the greatest manipulability is {best:.6} (metres, radians)\n");
+        }
+        text
     }
-    text
+
+    fn json(&self, map: &ReachMap) -> Value {
+        let measure = Measure::NAMES.iter().find(|(_, own)| *own == map.measure).map(|(name, _)| *name);
+        json!({
+            "format": FORMAT,
+            "name": map.solver,
+            "task": map.task,
+            "measure": measure,
+            "within_limits": map.limited,
+            "orientations": map.orientations,
+            "points": self.points,
+            "points_reached": self.points_reached,
+            "targets": self.targets,
+            "targets_reached": self.targets_reached,
+            "targets_undecided": self.open,
+            "solutions": self.solutions,
+            "greatest_manipulability": self.greatest_manipulability,
+            "seconds": self.time.as_secs_f64(),
+        })
+    }
 }
 
 /// Reads `-1:1:41` or `0.3`.

@@ -140,7 +140,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         output.write(file, Kind::Markup, plan.to_svg(&pilot, &floor))?;
     }
     if arguments.json {
-        (json_report["format"], json_report["holds"]) = (FORMAT.into(), checks.hold().into());
+        (json_report["format"], json_report["passed"]) = (FORMAT.into(), checks.hold().into());
         json_report["notes"] = notes.into();
         console::print(&super::json::text(&json_report))?;
     } else if !arguments.quiet {
@@ -198,7 +198,7 @@ impl Arguments {
     fn refuse(&self, blocked: &Blocked, notes: &[String]) -> Outcome {
         let enclosure = floor::enclosure(&blocked.map, &blocked.enclosure);
         if self.json {
-            let json_report = json!({ "format": FORMAT, "holds": false, "enclosure": enclosure, "notes": notes });
+            let json_report = json!({ "format": FORMAT, "passed": false, "enclosure": enclosure, "notes": notes });
             console::print(&super::json::text(&json_report))?;
         }
         console::line("error", &blocked.to_string());
@@ -243,13 +243,13 @@ fn destination(goal: &str, room: &Room) -> Result<Destination> {
 /// Room, paths and checks as JSON.
 fn json_report(performed: &Performed, checks: &Checks) -> Value {
     let time = |sample: usize| performed.walk.time(sample);
-    let clearance = |own: &groebot_humanoid::sim::Clearance| json!({ "link": own.link, "thing": own.thing.to_string(), "distance": own.distance, "time": time(own.sample) });
+    let clearance = |own: &groebot_humanoid::sim::Clearance| json!({ "link": own.link, "object": own.thing.to_string(), "distance": own.distance, "time": time(own.sample) });
     let mut json_report = serde_json::to_value(performed.record()).expect("a record can be represented in JSON");
     json_report["checks"] = json!({
-        "hold": checks.hold(),
+        "passed": checks.hold(),
         "clearances": checks.clearances.iter().map(clearance).collect::<Vec<_>>(),
-        "soles_off": checks.soles_off,
-        "soles_under": checks.soles_under,
+        "sole_deviation": checks.soles_off,
+        "sole_penetration": checks.soles_under,
         "margin": checks.margin,
         "fastest": { "joint": checks.fastest.0, "rpm": RPM * checks.fastest.1 },
         "findings": checks.findings.len(),

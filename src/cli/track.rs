@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
+use super::json::FORMAT;
 use super::moving::described;
 use super::output::{Force, Kind};
 use super::part::PartArguments;
@@ -139,7 +140,7 @@ struct JointSummary {
     name: String,
     /// Over all times, and over the second half.
     greatest_error: f64,
-    greatest_error_later: f64,
+    greatest_error_second_half: f64,
     root_mean_square_error: f64,
     greatest_torque: f64,
     effort: Option<f64>,
@@ -242,14 +243,14 @@ fn summary(samples: &[Sample], names: &[String], efforts: &[Option<f64>]) -> Sum
         JointSummary {
             name: name.clone(),
             greatest_error: greatest(&mut samples.iter().map(error)),
-            greatest_error_later: greatest(&mut samples[samples.len() / 2..].iter().map(error)),
+            greatest_error_second_half: greatest(&mut samples[samples.len() / 2..].iter().map(error)),
             root_mean_square_error: (squares / samples.len() as f64).sqrt(),
             greatest_torque: greatest(&mut samples.iter().map(|sample| sample.torques[joint])),
             effort: efforts[joint],
         }
     };
     let joints = names.iter().enumerate().map(joint).collect();
-    Summary { format: 1, steps: samples.len() - 1, joints, notes: Vec::new() }
+    Summary { format: FORMAT, steps: samples.len() - 1, joints, notes: Vec::new() }
 }
 
 fn text(summary: &Summary) -> String {
@@ -265,7 +266,7 @@ fn text(summary: &Summary) -> String {
             "{:<width$}  {:>11.3e}  {:>11.3e}  {:>11.3e}  {:>10.3}  {effort:>8}{}\n",
             joint.name,
             joint.greatest_error,
-            joint.greatest_error_later,
+            joint.greatest_error_second_half,
             joint.root_mean_square_error,
             joint.greatest_torque,
             if beyond { "  more than the motor's limit" } else { "" }

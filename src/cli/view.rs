@@ -9,7 +9,7 @@ use super::named::{CacheArguments, is_chain};
 use super::output::{Force, Kind};
 use super::progress::{Limits, Session};
 use super::solve::read_program;
-use super::{Outcome, console};
+use super::{Outcome, console, json};
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::limits::PROGRAM_BYTES;
 use groebot_humanoid::gait::{Footprint, Side};
@@ -78,6 +78,9 @@ pub struct Arguments {
     /// The output file, HTML
     #[arg(short, long, value_name = "FILE")]
     out: PathBuf,
+    /// Print the path of the page as JSON
+    #[arg(long)]
+    json: bool,
     #[command(flatten)]
     described: DescriptionArguments,
     #[command(flatten)]
@@ -91,7 +94,12 @@ pub fn run(arguments: &Arguments) -> Outcome {
         arguments.force.output(read.into_iter().flatten().map(PathBuf::as_path)).expects([Some(&arguments.out)])?;
     let page = arguments.reached(arguments.page()?)?;
     output.write(&arguments.out, Kind::Markup, page.to_html())?;
-    console::print(&format!("{}\n", arguments.out.display()))
+    let text = if arguments.json {
+        json::text(&json::written(&[&arguments.out]))
+    } else {
+        format!("{}\n", arguments.out.display())
+    };
+    console::print(&text)
 }
 
 impl Arguments {

@@ -6,11 +6,12 @@ use super::files::is_json;
 use super::output::{Force, Kind, Output};
 use super::progress::{Budget, Session};
 use super::verify::{Verification, Verified};
+use super::walk_json::WalkReport;
 use super::walk_request::RequestArguments;
 use super::walker::{self, SoleArguments};
-use super::{Outcome, console};
+use super::{Outcome, console, json};
 use crate::Result;
-use groebot_humanoid::gait::{Biped, Chains, Difference, Forces, Summary, Walk, Walker};
+use groebot_humanoid::gait::{Biped, Chains, Difference, Forces, Greatest, Summary, Walk, Walker};
 use groebot_humanoid::walkers::Outline;
 use groebot_robot::robots;
 
@@ -82,9 +83,6 @@ pub struct Arguments {
     /// Write the joint angles to this file: CSV, or JSON if its name ends in .json
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Write the joint angles to this JSON file
-    #[arg(long, value_name = "FILE")]
-    json: Option<PathBuf>,
     /// Write the columns of the thesis' tables to this CSV file, in degrees and its axes; for rh0, by default with the
     /// parameters of the thesis' simulations
     #[arg(long, value_name = "FILE", conflicts_with = "repair")]
@@ -100,6 +98,9 @@ pub struct Arguments {
     /// trunk, and their difference
     #[arg(long, requires = "torques")]
     chains: bool,
+    /// Print the summary as JSON
+    #[arg(long)]
+    json: bool,
     #[command(flatten)]
     verification: Verification,
     #[command(flatten)]
@@ -129,18 +130,23 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let forces = arguments.torques.then(|| walk.forces(biped));
     let chains = forces.as_ref().filter(|_| arguments.chains).map(|forces| walk.chains(biped, forces));
     arguments.write(&output, biped, &walk, (forces.as_deref(), chains.as_deref()))?;
+    let notes = [named.robot.parts().notes.clone(), notes, narrow(biped, &summary).into_iter().collect()].concat();
+    let report = WalkReport {
+        summary: &summary,
+        torques: forces.as_ref().map(|forces| walk.greatest_torques(biped, forces)),
+        chains: forces.zip(chains).map(|(forces, chains)| walk.difference(biped, &forces, &chains)),
+        notes: &notes,
+    };
+    if arguments.json {
+        return console::print(&json::text(&report.json()));
+    }
     if arguments.budget.quiet {
         return Ok(());
     }
-    console::print_notes(&named.robot.parts().notes);
     console::print_notes(&notes);
-    if let Some(note) = narrow(biped, &summary) {
-        console::line("note", &note);
-    }
     console::print(&summary.to_string())?;
-    let Some(forces) = forces else { return Ok(()) };
-    console::print(&torques(biped, &walk, &forces))?;
-    chains.map_or(Ok(()), |chains| console::print(&difference(&walk.difference(biped, &forces, &chains))))
+    console::print(&report.torques.as_deref().map(torques).unwrap_or_default())?;
+    console::print(&report.chains.as_ref().map(difference).unwrap_or_default())
 }
 
 /// A note about a margin below 5 mm and 5 % of the sole's width, which a walk has only on request.
@@ -165,9 +171,9 @@ fn difference(found: &Difference) -> String {
 }
 
 /// The greatest torque of each joint, next to its motor's limit.
-fn torques(biped: &Biped, walk: &Walk, forces: &[Forces]) -> String {
+fn torques(all: &[Greatest]) -> String {
     let mut text = "greatest torques [N m, N]\n".to_owned();
-    for greatest in walk.greatest_torques(biped, forces) {
+    for greatest in all {
         let effort = match greatest.effort {
             Some(effort) if greatest.torque > effort => format!("more than the motor's {effort}"),
             Some(effort) => format!("of {effort}"),
@@ -184,7 +190,7 @@ impl Arguments {
     fn output(&self) -> Result<Output> {
         let output =
             self.force.output(std::iter::once(Path::new(&self.robot)).chain(self.request.footsteps.as_deref()));
-        output.expects([&self.out, &self.json, &self.thesis, &self.plot].map(Option::as_ref))
+        output.expects([&self.out, &self.thesis, &self.plot].map(Option::as_ref))
     }
 
     fn write(
@@ -202,9 +208,6 @@ impl Arguments {
         if let Some(file) = &self.out {
             let text = if is_json(file) { walk.json_of(biped, &trajectory) } else { trajectory.to_csv() };
             output.write(file, Kind::of_motion(file), text)?;
-        }
-        if let Some(file) = &self.json {
-            output.write(file, Kind::Json, walk.json_of(biped, &trajectory))?;
         }
         if let Some(file) = &self.thesis {
             output.write(file, Kind::Plain, walk.to_thesis_csv(biped)?)?;

@@ -32,7 +32,7 @@ fn without_a_degree_of_freedom_there_is_no_interval() {
     let report: serde_json::Value = serde_json::from_str(&ran.out).unwrap();
     assert_eq!(report["format"], 2);
     let rows = report["parameters"].as_array().unwrap();
-    assert!(rows.len() == 3 && rows.iter().all(|row| row["confidence"].is_null()), "{}", ran.out);
+    assert!(rows.len() == 3 && rows.iter().all(|row| row["confidence_95"].is_null()), "{}", ran.out);
 }
 
 #[test]

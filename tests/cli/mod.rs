@@ -6,6 +6,7 @@ mod budgets;
 mod check;
 mod closest;
 mod codegen;
+mod colours;
 mod committed;
 mod coupled;
 mod derive;
@@ -29,6 +30,7 @@ mod plan;
 mod reach;
 mod redundant;
 mod refused;
+mod schema;
 mod shown;
 mod simulate;
 mod solve;
@@ -66,7 +68,7 @@ fn run(arguments: &[&str]) -> Ran {
     run_on(arguments, b"")
 }
 
-/// Runs with `input` on standard input. A panic fails the test.
+/// Runs with `input` on standard input. A panic fails the test, and so does JSON that docs/cli_schema.json does not describe.
 fn run_on(arguments: &[&str], input: &[u8]) -> Ran {
     let mut child = groebot(arguments).spawn().unwrap();
     let (mut stdin, input) = (child.stdin.take().unwrap(), input.to_vec());
@@ -80,6 +82,7 @@ fn run_on(arguments: &[&str], input: &[u8]) -> Ran {
         err: String::from_utf8(output.stderr).unwrap(),
     };
     assert!(!ran.err.contains("panicked"), "{}", ran.err);
+    schema::validate(arguments, &ran.out);
     ran
 }
 

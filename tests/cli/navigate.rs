@@ -28,10 +28,12 @@ fn paths_are_reported_as_text_json_and_csv() {
     assert!(
         (exact["length"].as_f64().unwrap() - length).abs() < 1e-12 && exact["points"].as_array().unwrap().len() == 4
     );
-    assert_eq!(exact["length"], exact["bound"]);
+    assert_eq!(exact["length"], exact["lower_bound"]);
     for method in ["fmm", "m3r", "octile"] {
         let found = json(&["--json", "--method", method]);
-        assert!(found["method"] == method && found["length"].as_f64().unwrap() > length && found["bound"].is_null());
+        assert!(
+            found["method"] == method && found["length"].as_f64().unwrap() > length && found["lower_bound"].is_null()
+        );
         let taut = json(&["--json", "--method", method, "--taut"]);
         assert!((taut["length"].as_f64().unwrap() - length).abs() < 0.06, "{taut}");
     }
@@ -86,7 +88,7 @@ fn the_quickest_path_is_reported_where_speeds_differ() {
     let time = |x: f64| 2.0 * (x - 0.5).hypot(0.8) + (1.5 - x).hypot(0.8);
     let least = (0..=100_000).map(|x| time(0.5 + 1e-5 * f64::from(x))).fold(f64::INFINITY, f64::min);
     assert!((reported["seconds"].as_f64().unwrap() / least - 1.0).abs() < 1e-4, "{reported} {least}");
-    assert!(reported["bound"].as_f64().unwrap() <= least);
+    assert!(reported["lower_bound"].as_f64().unwrap() <= least);
 }
 
 #[test]
@@ -137,10 +139,14 @@ fn a_humanoid_walks_over_a_map() {
     assert!(fs::read_to_string(&svg).unwrap().contains("too near for the body"));
     let reported: Value = serde_json::from_str(&succeed(&[&requested.concat()[..], &["--json"]].concat())).unwrap();
     assert_eq!(
-        (&reported["robot"], &reported["method"], &reported["wide"]),
+        (&reported["robot"], &reported["method"], &reported["clear_at_every_heading"]),
         (&"rh0".into(), &"exact".into(), &true.into())
     );
-    assert_eq!((&reported["rests"], reported["notes"].as_array().unwrap().len()), (&false.into(), 0), "{reported}");
+    assert_eq!(
+        (&reported["rests_between_steps"], reported["notes"].as_array().unwrap().len()),
+        (&false.into(), 0),
+        "{reported}"
+    );
     let steps = reported["steps"].as_array().unwrap();
     let end = |foot: &str| steps.iter().rfind(|step| step["foot"] == foot).unwrap();
     let middle = (end("left")["x"].as_f64().unwrap() + end("right")["x"].as_f64().unwrap()) / 2.0;

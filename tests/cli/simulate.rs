@@ -25,6 +25,7 @@ pub(super) fn with_python(arguments: &[&str], python: Option<&Path>) -> Ran {
     let output = command.output().unwrap();
     let [out, err] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
     assert!(!err.contains("panicked"), "{err}");
+    super::schema::validate(arguments, &out);
     Ran { code: output.status.code().unwrap(), out, err }
 }
 
@@ -110,9 +111,9 @@ fn nao_stands() {
     let (_folder, walk) = walked(&["nao", "--steps", "4"]);
     let Some(reported) = reported(&[&walk], 0) else { return };
     let compared = &reported["comparison"];
-    assert_eq!((&reported["run"]["fell"], &compared["landings"]), (&Value::Null, &serde_json::json!([4, 4])));
+    assert_eq!((&reported["run"]["fall_time"], &compared["landings"]), (&Value::Null, &serde_json::json!([4, 4])));
     assert!((number(&reported["run"]["mass"]) - 5.30575).abs() < 1e-4);
-    let [planned, walked] = ["planned", "walked"].map(|route| number(&compared[route]["ahead"]));
+    let [planned, walked] = ["planned", "simulated"].map(|route| number(&compared[route]["forward"]));
     assert!((planned - 0.12).abs() < 1e-6 && (walked - planned).abs() < 0.02, "{planned} {walked}");
     assert!(number(&compared["tilt"]) < 3f64.to_radians());
 }
@@ -126,12 +127,12 @@ fn rh0_sags_as_its_motor_stiffness_predicts() {
     let (out, plot) = (at("answer.csv"), at("joints.svg"));
     let Some(reported) = reported(&[&walk, "--open-loop", "-o", text(&out), "--plot", text(&plot)], 0) else { return };
     let compared = &reported["comparison"];
-    assert_eq!((&reported["run"]["fell"], &compared["landings"]), (&Value::Null, &serde_json::json!([2, 2])));
+    assert_eq!((&reported["run"]["fall_time"], &compared["landings"]), (&Value::Null, &serde_json::json!([2, 2])));
     assert_eq!(reported["run"]["points"], serde_json::json!(["Trunk"]), "its moments are assumed");
     assert!(number(&compared["zmp"][1]) < 0.008, "{}", compared["zmp"]);
     let joints = compared["joints"].as_array().unwrap();
     let roll = joints.iter().find(|joint| joint["joint"] == "RHipRoll").or(joints.first()).unwrap();
-    let (greatest, sag) = (number(&roll["greatest"]), number(&roll["sag"]));
+    let (greatest, sag) = (number(&roll["greatest"]), number(&roll["predicted"]));
     assert!(sag.abs() > 5e-3 && (greatest / sag - 1.0).abs() < 0.1, "{roll}");
     let answer = fs::read_to_string(&out).unwrap();
     assert!(answer.starts_with("# groebot trajectory 1\n# robot: rh0\n"));
@@ -140,7 +141,7 @@ fn rh0_sags_as_its_motor_stiffness_predicts() {
     assert_eq!(picture.matches("class=\"title\"").count(), 12);
     // The circle of 30 mm at a height of 0.67 m permits at most 3.4 degrees.
     let Some(fallen) = self::reported(&[&walk, "--open-loop", "--slope", "5,0"], 5) else { return };
-    assert!(number(&fallen["run"]["fell"]) < 46.0);
+    assert!(number(&fallen["run"]["fall_time"]) < 46.0);
 }
 
 /// Walks that fall in open loop stand with feedback.
@@ -154,10 +155,10 @@ fn feedback_keeps_walks_upright() {
         let (_folder, file) = walked(walk);
         let run = |code: i32, more: &[&str]| reported(&[&[&file[..]], options, more].concat(), code);
         let (Some(open), Some(stands)) = (run(5, &["--open-loop"]), run(0, &[])) else { return };
-        assert!(open["run"]["fell"].is_f64() && !open["feedback"].as_bool().unwrap());
-        assert!(stands["run"]["fell"].is_null() && stands["feedback"].as_bool().unwrap());
+        assert!(open["run"]["fall_time"].is_f64() && !open["feedback"].as_bool().unwrap());
+        assert!(stands["run"]["fall_time"].is_null() && stands["feedback"].as_bool().unwrap());
         let compared = &stands["comparison"];
-        let [planned, walked] = ["planned", "walked"].map(|route| number(&compared[route]["ahead"]));
+        let [planned, walked] = ["planned", "simulated"].map(|route| number(&compared[route]["forward"]));
         assert!((walked - planned).abs() < 0.05, "{planned} {walked}");
         assert!(number(&stands["usage"]["margin"][0]) > -0.005, "contact forces are within the soles: {stands}");
     }
@@ -169,7 +170,7 @@ fn feet_land_on_a_slope() {
     let (_folder, file) = walked(&["teo", "--steps", "3", "--crouched"]);
     for slope in ["3,0", "-3,0", "0,3", "0,-3"] {
         let Some(stands) = reported(&[&file, "--slope", slope], 0) else { return };
-        assert!(stands["run"]["fell"].is_null(), "{slope}: {stands}");
+        assert!(stands["run"]["fall_time"].is_null(), "{slope}: {stands}");
     }
 }
 

@@ -302,10 +302,10 @@ fn joints_that_follow_others_are_marked() {
     let ik = [&["ik", file, "--numeric", "--target", "0.3,0.35"], &task[..]].concat();
     let leaders = serde_json::json!([null, null, "elbow"]);
     let read = |arguments: &[&str]| -> Value { serde_json::from_str(&succeed(arguments)).unwrap() };
-    assert_eq!(read(&derive)["follows"], leaders);
+    assert_eq!(read(&derive)["mimics"], leaders);
     for arguments in [&solve[..], &ik] {
         let answer = read(&[arguments, &["--json"]].concat());
-        assert_eq!(answer["follows"], leaders);
+        assert_eq!(answer["mimics"], leaders);
         assert_eq!(answer["joints"], serde_json::json!(["shoulder", "elbow", "back"]));
         let solutions = answer["solutions"].as_array().unwrap();
         assert_eq!(solutions.len(), 2, "{answer}");
@@ -318,5 +318,5 @@ fn joints_that_follow_others_are_marked() {
     }
     // Without such joints there is no line about them.
     let page = succeed(&["solve", leg().path(), "--target", "60,150"]);
-    assert!(!page.contains("follows") && json("60,150", &[]).get("follows").is_none(), "{page}");
+    assert!(!page.contains("follows") && json("60,150", &[]).get("mimics").is_none(), "{page}");
 }

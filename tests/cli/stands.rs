@@ -52,12 +52,12 @@ fn stands(command: &[String]) {
     let Some(report) = reported(&[&file], 0) else { return };
     let compared = &report["comparison"];
     let [planned, walked] =
-        ["planned", "walked"].map(|route| ["ahead", "left", "turn"].map(|name| number(&compared[route][name])));
+        ["planned", "simulated"].map(|route| ["forward", "left", "turn"].map(|name| number(&compared[route][name])));
     let off = (walked[0] - planned[0]).hypot(walked[1] - planned[1]);
     let turned = (walked[2] - planned[2]).to_degrees();
     let margin = 1e3 * number(&report["usage"]["margin"][0]);
     println!("{command:?}: {:.0} mm and {turned:.1} deg off the plan, least margin {margin:.1} mm", 1e3 * off);
-    assert!(report["run"]["fell"].is_null() && compared["landings"][0] == compared["landings"][1], "{command:?}");
+    assert!(report["run"]["fall_time"].is_null() && compared["landings"][0] == compared["landings"][1], "{command:?}");
     assert!(off < 0.05 + 0.1 * planned[0].hypot(planned[1]) && turned.abs() < 3.0, "{command:?}: {off} {turned}");
 }
 

@@ -1,13 +1,16 @@
 //! Code generation for the equations of motion of a robot.
 
+use std::path::Path;
+
 use clap::ValueEnum;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
+use serde_json::Value;
 
 use super::Arguments;
 use crate::cli::codegen::{refuse_run_time, write_pair};
 use crate::cli::moving::described;
 use crate::cli::output::{Kind, Output};
-use crate::cli::{Outcome, console};
+use crate::cli::{Outcome, console, json};
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::limits;
 use groebot_ik::codegen::dynamics::{Form, Function, Printed};
@@ -50,6 +53,10 @@ pub fn functions() -> impl TypedValueParser<Value = Function> {
 
 /// Prints the code, or writes it to files.
 pub fn run(arguments: &Arguments, language: Language) -> Outcome {
+    if arguments.json && arguments.out.is_none() {
+        let text = "--json reports the files of code; give the file by -o";
+        return Err(Error::new(ErrorKind::BadValue, text).into());
+    }
     let output = arguments.output(None).expects([arguments.out.as_ref()])?;
     let (described, _) = described(&arguments.robot, &arguments.part.options())?;
     check(&described).map_err(|error| error.in_file(&arguments.robot))?;
@@ -71,8 +78,25 @@ pub fn run(arguments: &Arguments, language: Language) -> Outcome {
     };
     let left_out = if arguments.functions.is_empty() { choose_functions(&mut printed) } else { None };
     let notes = [&robot.parts().notes[..], equations.notes(), left_out.as_slice()].concat();
-    console::print_notes(&notes);
-    write(arguments, &output, language, &printed)
+    if !arguments.json {
+        console::print_notes(&notes);
+    }
+    write(arguments, &output, language, &printed)?;
+    match &arguments.out {
+        Some(file) if arguments.json => console::print(&json::text(&report(&printed, language, file, &notes))),
+        _ => Ok(()),
+    }
+}
+
+/// The printed functions and their files.
+fn report(printed: &Printed<'_>, language: Language, file: &Path, notes: &[String]) -> Value {
+    let header = file.with_extension("h");
+    let files: &[&Path] = if language == Language::C { &[&header, file] } else { &[file] };
+    let mut value = json::written(files);
+    value["name"] = printed.name.into();
+    value["functions"] = printed.functions.iter().map(|function| function.name()).collect();
+    value["notes"] = notes.into();
+    value
 }
 
 /// Fails for a robot with too many joints or without mass, before any computation.

@@ -62,10 +62,10 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE", required_unless_present_any = ["symbolic", "lang"])]
     states: Option<PathBuf>,
     /// Print polynomials in cosines, sines and the inertial parameters of the bodies
-    #[arg(long, conflicts_with_all = ["states", "no_friction", "as_given", "json"])]
+    #[arg(long, conflicts_with_all = ["states", "no_friction", "as_given"])]
     symbolic: bool,
     /// Print code in this language
-    #[arg(long, value_name = "LANGUAGE", conflicts_with_all = ["states", "symbolic", "no_friction", "json"])]
+    #[arg(long, value_name = "LANGUAGE", conflicts_with_all = ["states", "symbolic", "no_friction"])]
     lang: Option<code::Language>,
     /// With --lang: the functions to print (default: all)
     #[arg(long, value_name = "NAMES", value_delimiter = ',', requires = "lang", value_parser = code::functions())]
@@ -80,7 +80,7 @@ pub struct Arguments {
     #[arg(long, requires = "symbolic")]
     numbers: bool,
     /// With --symbolic: print a page of LaTeX
-    #[arg(long, requires = "symbolic", conflicts_with = "out")]
+    #[arg(long, requires = "symbolic", conflicts_with_all = ["out", "json"])]
     latex: bool,
     #[command(flatten)]
     part: PartArguments,
@@ -94,7 +94,7 @@ pub struct Arguments {
     /// written as NAME.c with NAME.h
     #[arg(short, long, value_name = "FILE-or-FOLDER")]
     out: Option<PathBuf>,
-    /// Print JSON instead of the table
+    /// Print JSON instead of the table or the polynomials; for files of code or polynomials, their paths
     #[arg(long)]
     json: bool,
     #[command(flatten)]

@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use super::Arguments;
 use super::reading::Reading;
+use crate::cli::json::FORMAT;
 use crate::cli::moving::described;
 use crate::cli::output::Kind;
 use crate::cli::{Outcome, console};
@@ -86,7 +87,7 @@ fn report(
         notes.push(format!("qdd is empty in {} of {} rows: {}", massless.len(), states.len(), first.message()));
     }
     let Reading { joints, base, .. } = reading;
-    Ok(Report { format: 1, joints, floating: base == Base::Floating, states, notes })
+    Ok(Report { format: FORMAT, joints, floating: base == Base::Floating, states, notes })
 }
 
 /// The robot with all joints independent, without mimic joints.

@@ -1,11 +1,13 @@
 //! The equations of motion of a chain as polynomials, with a certificate.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+use serde_json::{Value, json};
 
 use super::Arguments;
 use crate::cli::ends::TipLink;
 use crate::cli::files::{refuse_input, source_files, write_set};
-use crate::cli::{Outcome, console};
+use crate::cli::{Outcome, console, json};
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_algebra::limits::SYMBOLIC_TERMS;
 use groebot_ik::derive::problem::input::InputFile;
@@ -30,10 +32,16 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let gravity = &arguments.part.gravity.0;
     let symbolic = equations(chain, masses, arguments).map_err(|error| error.in_file(&arguments.robot))?;
     let tip = input.tip.as_ref();
-    console::print_notes(input.notes());
+    if !arguments.json {
+        console::print_notes(input.notes());
+    }
     let Some(folder) = &arguments.out else {
         let text = || TipLink::line(tip) + &symbolic.to_text();
-        return console::print(&if arguments.latex { latex(chain, &symbolic, tip) } else { text() });
+        return console::print(&match (arguments.latex, arguments.json) {
+            (true, _) => latex(chain, &symbolic, tip),
+            (_, true) => json::text(&report(&input, &symbolic, &[])),
+            _ => text(),
+        });
     };
     let mut files = input.files(folder)?;
     files.extend(motion::files(chain, &symbolic, masses, gravity)?);
@@ -42,6 +50,10 @@ pub fn run(arguments: &Arguments) -> Outcome {
         None => Ok(Vec::new()),
     };
     write_set(folder, &files, refuse, arguments.force, &Watch::none())?;
+    if arguments.json {
+        let paths: Vec<PathBuf> = files.iter().map(|(name, _)| folder.join(name)).collect();
+        return console::print(&json::text(&report(&input, &symbolic, &paths)));
+    }
     let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
     console::print(&format!(
         "{}{} joints, {} terms of M, C and N, proved; written to {}: {}\n",
@@ -104,6 +116,22 @@ impl Input {
         let source = self.source.as_ref().ok_or_else(|| Error::new(ErrorKind::Unsupported, text))?;
         source_files(source, folder)
     }
+}
+
+/// The entries of the equations, the meaning of their symbols, and the written files.
+fn report(input: &Input, symbolic: &Symbolic, files: &[PathBuf]) -> Value {
+    let files: Vec<&Path> = files.iter().map(PathBuf::as_path).collect();
+    let mut value = json::written(&files);
+    let chain = &input.moving.chain;
+    value["name"] = chain.name().into();
+    value["joints"] = chain.joints().iter().map(|joint| joint.name.as_str()).collect();
+    value["tip_link"] = serde_json::to_value(&input.tip).expect("names");
+    value["terms"] = symbolic.terms().into();
+    value["entries"] =
+        symbolic.entries().into_iter().map(|(name, text)| json!({ "name": name, "polynomial": text })).collect();
+    value["legend"] = symbolic.legend().into();
+    value["notes"] = input.notes().into();
+    value
 }
 
 /// A page of LaTeX.

@@ -97,7 +97,7 @@ impl Page<'_> {
             given: choice.map(given),
             target: self.text,
             joints: names(chain),
-            follows: leaders(follows(chain)),
+            mimics: leaders(follows(chain)),
             unit: chain.joints().iter().map(|joint| self.question.unit(joint)).collect(),
             solutions: self.answers.iter().map(|answer| self.entry(answer)).collect(),
             notes,
@@ -230,7 +230,7 @@ struct Object<'a> {
     joints: Vec<&'a str>,
     /// The leader of each mimic joint.
     #[serde(skip_serializing_if = "Option::is_none")]
-    follows: Option<Vec<Option<&'a str>>>,
+    mimics: Option<Vec<Option<&'a str>>>,
     unit: Vec<&'a str>,
     solutions: Vec<Entry<'a>>,
     /// The ignored parts of the robot.

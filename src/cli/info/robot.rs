@@ -39,8 +39,8 @@ impl<'r> Body<'r> {
         Ok(Body { robot, mass: Some(model.mass()), centre })
     }
 
-    /// The robot as JSON: `format` (1), names, moving joints in the order of `--q`, mass, centre of mass, doubts, and
-    /// faults of single parts.
+    /// The robot as JSON: names, moving joints in the order of `--q`, mass, centre of mass, warnings, and faults of single
+    /// parts.
     pub fn json(&self) -> Value {
         let robot = self.robot;
         let moving = robot.moving().into_iter().map(|place| {
@@ -48,7 +48,7 @@ impl<'r> Body<'r> {
             json!({
                 "name": joint.name, "type": joint.kind.name(), "parent": joint.parent, "child": joint.child,
                 "limits": joint.limits, "speed": joint.speed, "effort": joint.effort,
-                "follows": joint.mimic.as_ref().map(|mimic| &mimic.leader),
+                "mimics": joint.mimic.as_ref().map(|mimic| &mimic.leader),
             })
         });
         json!({
@@ -60,7 +60,7 @@ impl<'r> Body<'r> {
             "joints": moving.collect::<Vec<_>>(),
             "mass": self.mass,
             "centre_of_mass": self.centre.map(|centre| [centre.x, centre.y, centre.z]),
-            "doubts": robot.doubts(),
+            "warnings": robot.doubts(),
             "faults": robot.faults().iter().map(|fault| fault.error.to_string()).collect::<Vec<_>>(),
             "notes": robot.parts().notes,
         })

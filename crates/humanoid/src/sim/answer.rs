@@ -32,8 +32,10 @@ pub struct JointComparison {
     pub torque: f64,
     /// The greatest deviation predicted from the motor's stiffness and the torques of the plan; only where the plan has
     /// torques.
+    #[serde(rename = "predicted")]
     pub sag: Option<f64>,
     /// The root mean square of the deviation minus the predicted one.
+    #[serde(rename = "unpredicted_rms")]
     pub unpredicted: Option<f64>,
 }
 
@@ -43,6 +45,7 @@ pub struct JointComparison {
 #[non_exhaustive]
 pub struct Displacement {
     /// The displacement forward.
+    #[serde(rename = "forward")]
     pub ahead: f64,
     /// To the left.
     pub left: f64,
@@ -64,6 +67,7 @@ pub struct Comparison {
     /// The planned displacement until the simulation ends.
     pub planned: Displacement,
     /// The simulated displacement.
+    #[serde(rename = "simulated")]
     pub walked: Displacement,
     /// The numbers of landings, planned and simulated.
     pub landings: [usize; 2],
