@@ -132,7 +132,8 @@ fn the_validator_finds_each_kind_of_fault() {
         change(&mut changed);
         faults(schema, &changed, "plan")
     };
-    let cases: [(&dyn Fn(&mut Value), &str); 6] = [
+    type Change<'a> = &'a dyn Fn(&mut Value);
+    let cases: [(Change<'_>, &str); 6] = [
         (&|plan| plan["undocumented"] = 1.into(), "plan: `undocumented` is not documented"),
         (&|plan| drop(plan.as_object_mut().unwrap().remove("steps")), "plan: \"steps\" is missing"),
         (&|plan| plan["format"] = 1.into(), "plan.format: const 2, but 1"),
