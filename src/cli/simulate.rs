@@ -32,13 +32,14 @@ const EXAMPLES: &str = "Examples:
 MuJoCo is an external program. GROEBOT_PYTHON is a Python that has it, by default python3 (python3
 -m venv mujoco && mujoco/bin/pip install mujoco). The robot is exported to MJCF as by `export`.
 
-Motors are position servos of one kind: torque = stiffness (command - q) - damping (q' - planned
-q'), within the efforts of the description, with an inertia at the joint. --servo gives stiffness in
-m g l, damping in m g^0.5 l^1.5 and inertia in m l^2, where m is the robot's mass and l is 0.63 of
-the height of its torso. A joint with limits of its effort and its velocity in the description has
-the inertia with which its motor reaches the velocity in 15 ms with the effort, but at most that by
---servo, and at least k (4 ms)^2, so that MuJoCo integrates it stably. A body that is described as a
-point has moments of inertia 0.2 m l^2.
+Motors are position servos: torque = stiffness (command - q) - damping (q' - planned q'), within the
+efforts of the description, with an inertia at the joint. Position gains and rotor inertias of the
+description (MJCF) are used where it has them. Otherwise the stiffness is 30 m g l, the damping
+1.5 m g^0.5 l^1.5 and the inertia 0.21 m l^2, where m is the robot's mass and l is 0.63 of the height
+of its torso; with an effort limit, the stiffness is at most effort / 10 mrad, the damping less in
+proportion, and with a velocity limit too, the inertia is that with which the motor reaches the
+velocity in 15 ms with the effort, so that MuJoCo integrates it stably (docs/walking.md). --servo
+replaces all gains. A body that is described as a point has moments of inertia 0.2 m l^2.
 
 A stabiliser reads joint values, orientation and angular velocity of the base and the forces on both
 soles at 200 Hz, and corrects the commands (docs/walking.md). It knows the motors' stiffness and the
@@ -62,7 +63,8 @@ pub struct Arguments {
     model: Option<PathBuf>,
     #[command(flatten)]
     soles: SoleArguments,
-    /// Stiffness, damping and inertia of the motors, relative to the robot's size [default: 30,1.5,0.21]
+    /// Stiffness, damping and inertia of all motors, in m g l, m g^0.5 l^1.5 and m l^2 [default: as described, else
+    /// 30,1.5,0.21, less stiff where efforts are limited]
     #[arg(long, value_name = "STIFFNESS,DAMPING,INERTIA", value_delimiter = ',', num_args = 1)]
     servo: Option<Vec<f64>>,
     /// The coefficient of friction between soles and floor

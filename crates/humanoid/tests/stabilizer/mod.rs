@@ -95,6 +95,28 @@ fn the_deflection_under_the_weight_is_that_of_inverse_dynamics() {
     }
 }
 
+#[test]
+fn each_joint_has_its_own_stiffness() {
+    let (walker, plan) = four_steps("nao");
+    let walk = plan.trajectory(&walker.biped);
+    let state = planned(&walker, &walk, single_support(&walk, 1), [1.0, 0.0]);
+    let new = || Stabilizer::new(walker.clone(), &walk).unwrap();
+    let count = walker.biped.joints.len();
+    let [rigid, soft] = [new(), new().stiffness(300.0)].map(|mut law| law.step(&state).unwrap().positions);
+    let knee = walker.biped.feet[0].joints[3];
+    let mut stiffness = vec![f64::INFINITY; count];
+    stiffness[knee] = 150.0;
+    let own = new().joint_stiffness(stiffness.clone()).unwrap().step(&state).unwrap().positions;
+    for joint in 0..count {
+        let expected = if joint == knee { rigid[knee] + 2.0 * (soft[knee] - rigid[knee]) } else { rigid[joint] };
+        assert!((own[joint] - expected).abs() < 1e-12, "{}", walker.biped.joints[joint].name);
+    }
+    let refused = |stiffness: Vec<f64>| new().joint_stiffness(stiffness).map(drop).unwrap_err();
+    assert_eq!(refused(vec![300.0]).kind(), ErrorKind::BadValue);
+    stiffness[knee] = 0.0;
+    assert!(refused(stiffness).to_string().contains(&walker.biped.joints[knee].name));
+}
+
 /// The first row after which the foot of a side swings for a while.
 fn single_support(walk: &Trajectory, side: usize) -> usize {
     let stands = &sim::soles(walk).unwrap()[side].stands;

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use groebot_robot::ErrorKind;
 use groebot_robot::dynamics::Model;
-use groebot_robot::model::{JointType, Robot, Solid, XmlFormat};
+use groebot_robot::model::{JointType, Meshes, Robot, Solid, XmlFormat};
 use groebot_robot::spatial::Pose;
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 use serde_json::Value;
@@ -90,6 +90,30 @@ fn limits_and_dynamics_are_those_of_mujoco() {
     let effort = |name: &str| robot.joints()[robot.joint(name).unwrap()].effort;
     // forcerange; ctrlrange times gear; actuatorfrcrange before both.
     assert_eq!(["shoulder", "swing", "elbow", "rail"].map(effort), [Some(20.0), Some(6.0), Some(7.0), None]);
+}
+
+/// Position gains are those of the joint's actuators together, times the square of the gear: an actuator moves `gear` times as far as its joint.
+#[test]
+fn servos_are_the_position_gains_of_actuators() {
+    let robot = arm();
+    let servo = |robot: &Robot, name: &str| {
+        robot.joints()[robot.joint(name).unwrap()].servo.map(|servo| [servo.stiffness, servo.damping])
+    };
+    assert_eq!(["shoulder", "swing", "rail"].map(|name| servo(&robot, name)), [Some([50.0, 0.0]), None, None]);
+    let bodies: String =
+        ["a", "b", "c", "d"].map(|name| format!("<body><joint name=\"{name}\"/><geom size=\"0.1\"/></body>")).concat();
+    let text = format!(
+        "<mujoco><worldbody><body><geom size=\"0.1\"/>{bodies}</body></worldbody><actuator>\
+         <general joint=\"a\" biastype=\"affine\" gainprm=\"20\" biasprm=\"0 -20 -1\" gear=\"2\"/>\
+         <position joint=\"b\" kp=\"10\" kv=\"1\"/><velocity joint=\"b\" kv=\"2\"/>\
+         <velocity joint=\"c\" kv=\"2\"/><general joint=\"d\" gainprm=\"5\"/></actuator></mujoco>"
+    );
+    let robot = Robot::from_mjcf(&text, None).unwrap();
+    let servos = ["a", "b", "c", "d"].map(|name| servo(&robot, name));
+    assert_eq!(servos, [Some([80.0, 4.0]), Some([10.0, 3.0]), None, None]);
+    let written = robot.to_mjcf(&Meshes::default(), &mut Vec::new()).unwrap();
+    assert!(written.contains("joint=\"a\" kp=\"80\" kv=\"4\" user=\"0 1\"/>"), "{written}");
+    assert!(written.contains("joint=\"c\" kp=\"100\"/>"), "{written}");
 }
 
 #[test]
