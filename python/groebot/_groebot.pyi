@@ -871,17 +871,28 @@ def navigate(
     goal: Sequence[float],
     start: Sequence[float] | None = None,
     *,
+    gait: Literal["preview", "osg", "rh0", "rh0-sim", "rh0-real"] | None = None,
+    crouched: bool = False,
     method: Literal["exact", "fmm", "m3r", "potential"] = "exact",
+    body: Sequence[float] | None = None,
+    furniture: Mapping[str, Sequence[float] | None] | None = None,
     resolution: float = 0.05,
+    unknown_free: bool = False,
     apart: float = 0.02,
     progress: _Progress | None = None,
 ) -> Walk:
     """Plans the walk of a humanoid over a map to a goal and checks every sample: see `groebot.Walk`.
 
-    `robot` is nao, rh0 or teo. `map` is a file (ROS YAML, PGM, PNG, text, a room in TOML), the name of a room (living-room, encirclement), or an array of
-    booleans. The array has the shape (rows, columns), begins at y = 0 and is true where there is an obstacle; `resolution` is the size of its cells [m].
-    `start` and `goal` are (x, y) or (x, y, heading) [m, rad]. A room has a default start. `method` is exact, fmm, m3r or potential. `apart` is the distance of
-    the body from obstacles [m]. If there is no path, it raises `NoPathError`, which has the cells that enclose the start or the goal.
+    `robot` is nao, rh0 or teo, or the path of a URDF or TOML, whose legs are derived first. `map` is a file (ROS YAML, PGM, PNG, text, a room in TOML), the name
+    of a room (living-room, encirclement), or an array of booleans. The array has the shape (rows, columns), begins at y = 0 and is true where there is an
+    obstacle; `resolution` is the size of its cells [m]. `start` and `goal` are (x, y) or (x, y, heading) [m, rad]. A room has a default start.
+    `furniture` moves pieces of a room: their names with (x, y) or (x, y, yaw) [m, rad], or None, which removes the piece. `unknown_free` treats unknown cells
+    as free.
+
+    `gait` is preview, which does not rest between the steps and is the default, or one by one step goal, which rests after each: osg, or of rh0 also rh0, rh0-sim,
+    rh0-real. Where no walk without rests is feasible, the robot rests after each step, and `Walk.notes` has the reason. With `crouched` it starts and ends in the
+    crouch. `method` is exact, fmm, m3r or potential. `body` is the length and the width of the body [m], by default those of its shapes. `apart` is the distance
+    of the body from obstacles [m]. If there is no path, it raises `NoPathError`, which has the cells that enclose the start or the goal.
     """
 def _run(arguments: Sequence[str]) -> int: ...
 def _any_within(solver: Solver | PlacedSolver, target: _Target, limits: _Limits | None, tolerance: float | None) -> Within: ...

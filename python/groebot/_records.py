@@ -115,6 +115,8 @@ class Walk:
     """The foot of each footstep: left or right."""
     csv: str
     """Converts the walk to the CSV of `groebot navigate`, which `groebot view` and `groebot simulate` read."""
+    notes: list[str]
+    """What differs from the requested walk, such as the reason why the robot rests after each step; usually empty."""
 
 
 def _robot(text: str, base: str | None, tip: str | None, floating: bool, gravity: list[float]) -> Robot:

@@ -42,7 +42,7 @@ impl Stabilizer {
             return Err(bad_value("`heading` must be a number from 0 to 1"));
         }
         let made = || {
-            let walker = walker(robot)?;
+            let (_, _, walker) = walking(robot)?;
             let joints = walker.biped.joints.iter().map(|joint| joint.name.clone()).collect();
             let mut gains = StabilizerGains::default();
             gains.heading = heading.unwrap_or(gains.heading);
@@ -96,19 +96,22 @@ impl Stabilizer {
     }
 }
 
-/// The walking robot of that name, or of a description.
-fn walker(robot: &str) -> Result<Walker> {
-    if let Some(walker) = robots::walker(robot, Outline::default()) {
-        return walker;
+/// The walking robot of that name, or of a description, with its meshes. The root link of a description is turned to the torso.
+pub fn walking(robot: &str) -> Result<(Robot, Meshes, Walker)> {
+    if let (Some(walker), Some(robot)) = (robots::walker(robot, Outline::default()), robots::robot(robot)) {
+        return Ok((robot, Meshes::default(), walker?));
     }
     let path = Path::new(robot);
     if !path.exists() {
         let text = format!("`{robot}` is neither a file nor a walking robot of groebot; give a file, nao, rh0 or teo");
         return Err(Error::new(ErrorKind::UnknownName, text));
     }
-    let footing = Footing::find(&Robot::read(path)?, &Meshes::beside(path), [None, None], None)?;
+    let meshes = Meshes::beside(path);
+    let at_file = |error: Error| error.in_file(path);
+    let footing = Footing::find(&Robot::read(path)?, &meshes, [None, None], None).map_err(at_file)?;
     let leg = |chain: &Chain| -> Result<LegSolver> { Ok(Arc::new(groebot::derive(chain)?.solver())) };
-    footing.walker(leg).map_err(|error| error.in_file(path))
+    let walker = footing.walker(leg).map_err(at_file)?;
+    Ok((footing.robot().clone(), meshes, walker))
 }
 
 /// The numbers of an array with this shape.

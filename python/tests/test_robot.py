@@ -129,6 +129,28 @@ def test_a_humanoid_finds_its_path():
     assert walk.csv.startswith("#") or "time" in walk.csv.splitlines()[0]
 
 
+def test_a_humanoid_walks_as_by_the_command(tmp_path):
+    """The defaults are those of the command: no rests between steps. A gait by one step goal rests, and is slower."""
+    room = REPOSITORY / "examples/living_room.toml"
+    arguments = ["--start", "1.4,1.5,0", "--goal", "3.2,1.6", "--furniture", "chair=2.6,4", "--quiet"]
+    walks = {}
+    for gait in (None, "rh0-real"):
+        out = tmp_path / f"{gait}.csv"
+        command = ["groebot", "navigate", "rh0", "--map", str(room), "-o", str(out), *arguments]
+        assert groebot._groebot._run(command + (["--gait", gait] if gait else [])) == 0
+        walks[gait] = groebot.navigate("rh0", room, (3.2, 1.6), (1.4, 1.5, 0), gait=gait, furniture={"chair": (2.6, 4)})
+        assert walks[gait].csv == out.read_text() and walks[gait].notes == []
+    assert walks[None].times[-1] < 0.6 * walks["rh0-real"].times[-1]
+    crouched = groebot.navigate("rh0", room, (3.2, 1.6), (1.4, 1.5, 0), crouched=True, furniture={"chair": None, "sofa": (3, 5, 0.1)})
+    assert crouched.times[-1] < walks[None].times[-1]
+    empty = np.zeros((60, 60), bool)
+    for wrong in ({"gait": "gallop"}, {"body": (0.3,)}, {"furniture": {"chair": (1,)}}, {"furniture": {"throne": None}}):
+        with pytest.raises(groebot.GroebotError):
+            groebot.navigate("rh0", room, (3.2, 1.6), (1.4, 1.5, 0), **wrong)
+    with pytest.raises(groebot.BadValueError, match="needs a room"):
+        groebot.navigate("rh0", empty, (1.5, 1.5), (1.0, 1.5), furniture={"chair": None})
+
+
 def test_a_map_as_an_array_and_no_path_through_it():
     room = np.zeros((60, 60), bool)
     assert len(groebot.navigate("nao", room, (2.0, 1.5), (1.0, 1.5)).times) > 100

@@ -12,11 +12,12 @@ use super::json::FORMAT;
 use super::output::{Force, Kind, Output};
 use super::progress::{Limits, Session};
 use super::verify::Verification;
+use super::walk::narrow;
 use super::walker::{self, GaitName, Named, SoleArguments};
 use super::{Halt, Outcome, console};
 use crate::{Error, ErrorKind, Result, Watch};
-use groebot_humanoid::gait::{Footstep, GaitDefaults, Summary, Walk, Walker};
-use groebot_humanoid::task::{Blocked, Body, Floor, Method, Pilot, Plan, Refusal};
+use groebot_humanoid::gait::{Footstep, Summary, Walk, Walker};
+use groebot_humanoid::task::{Blocked, Body, Floor, Method, Navigator, Pilot, Plan, Refusal};
 use groebot_humanoid::walkers::Outline;
 
 const EXAMPLES: &str = "Examples:
@@ -103,14 +104,12 @@ pub(super) enum MethodName {
 /// A plan, or the proof that there is no path.
 type Found = std::result::Result<Plan, Blocked>;
 
-/// The result of a pilot.
+/// The result of a navigator.
 struct Navigated {
-    pilot: Pilot,
+    navigator: Navigator,
     found: Found,
     /// The time of planning \[ms\].
     milliseconds: f64,
-    /// Why the robot rests after each step, unless that was requested.
-    note: Option<String>,
 }
 
 fn walk_of(navigated: &Navigated) -> Option<&Walk> {
@@ -125,31 +124,29 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let (map, default_start) = arguments.floor.map(&arguments.map)?;
     let floor = Floor::new(&map, arguments.places.apart)?;
     let (start, goal) = (arguments.places.start(default_start)?, arguments.places.goal()?);
+    let search = goal.by(arguments.method.method());
     let plan = |walker: &Walker| -> Result<Navigated> {
-        let pilot = arguments.pilot(&named, walker, &session.watch)?;
+        let navigator = arguments.navigator(&named, walker, &session.watch)?;
         let begun = Instant::now();
-        let feet = start.feet(pilot.half_width());
-        let mut found = Plan::find(&pilot, &floor, feet, goal.by(arguments.method.method()), &session.watch)?;
-        let note = match (&mut found, arguments.blended(walker)?) {
-            (Ok(plan), Some(gait)) => blend(plan, (&pilot, &floor), &gait, &session.watch)?,
-            _ => None,
-        };
-        Ok(Navigated { pilot, found, milliseconds: 1e3 * begun.elapsed().as_secs_f64(), note })
+        let found = navigator.plan(&floor, &start, search, &session.watch)?;
+        Ok(Navigated { navigator, found, milliseconds: 1e3 * begun.elapsed().as_secs_f64() })
     };
     let verified = arguments.verification.planned(&named, &session.watch, plan, walk_of)?;
-    let Navigated { pilot, found, milliseconds, note } = verified.plan;
+    let Navigated { navigator, found, milliseconds } = verified.plan;
+    let pilot = navigator.pilot();
     drop(session);
     match &found {
-        Ok(plan) => arguments.write(&output, &pilot, &floor, plan)?,
+        Ok(plan) => arguments.write(&output, pilot, &floor, plan)?,
         Err(blocked) => {
             if let Some(file) = &arguments.plot {
                 output.write(file, Kind::Markup, blocked.to_svg(&floor, &start.point(), &goal.place))?;
             }
         }
     }
-    let notes = [named.robot.parts().notes.clone(), note.into_iter().collect(), verified.notes].concat();
+    let own = found.as_ref().map(|plan| notes(pilot, plan)).unwrap_or_default();
+    let notes = [named.robot.parts().notes.clone(), own, verified.notes].concat();
     if arguments.json {
-        let mut json_report = arguments.json_report(&pilot, &found, milliseconds);
+        let mut json_report = arguments.json_report(pilot, &found, milliseconds);
         json_report["notes"] = notes.into();
         console::print(&super::json::text(&json_report))?;
     } else if !arguments.quiet {
@@ -169,28 +166,14 @@ pub fn run(arguments: &Arguments) -> Outcome {
 }
 
 impl Arguments {
-    fn pilot(&self, named: &Named, walker: &Walker, watch: &Watch) -> Result<Pilot> {
+    fn navigator(&self, named: &Named, walker: &Walker, watch: &Watch) -> Result<Navigator> {
         let body = match self.body.as_deref() {
             Some(&[length, width]) => Body::of_size(length, width)?,
             Some(_) => return Err(bad("--body takes two numbers: --body 0.3,0.5")),
             None => Body::new(&named.robot, &walker.biped, &named.meshes)?,
         };
-        let blended = self.blended(walker)?;
-        let wanted = self.gait.filter(|_| blended.is_none());
-        let defaults = steps(&walker.gaits, wanted)?;
-        let pilot = Pilot::new(walker.clone(), defaults, body, !self.crouched, watch)?;
-        Ok(match blended {
-            Some(gait) => pilot.for_gait(&gait),
-            None => pilot,
-        })
-    }
-
-    /// The parameters of the gait without rests, unless a gait by one step goal is requested.
-    fn blended(&self, walker: &Walker) -> Result<Option<GaitDefaults>> {
-        match self.gait {
-            None | Some(GaitName::Preview) => walker::defaults(&walker.gaits, Some(GaitName::Preview)).map(Some),
-            Some(_) => Ok(None),
-        }
+        let gait = self.gait.map(GaitName::name);
+        Navigator::new(walker.clone(), gait.as_deref(), body, !self.crouched, watch)
     }
 
     /// The output; it replaces neither the robot nor the map.
@@ -255,36 +238,11 @@ impl MethodName {
     }
 }
 
-/// Replaces the walk of a plan by one without rests between its steps. Where none is feasible, the walk stays and the
-/// result is a note.
-fn blend(
-    plan: &mut Plan,
-    (pilot, floor): (&Pilot, &Floor),
-    gait: &GaitDefaults,
-    watch: &Watch,
-) -> Result<Option<String>> {
-    if plan.walk.schedule.route.steps.is_empty() {
-        return Ok(None);
-    }
-    match plan.blended(pilot, floor, gait, watch)? {
-        Ok(walk) => {
-            plan.walk = walk;
-            Ok(None)
-        }
-        Err(reason) => Ok(Some(format!("the robot rests after each step, because preview control fails: {reason}"))),
-    }
-}
-
-/// The gait of that name, or the first one by one step goal.
-fn steps(gaits: &[(&'static str, GaitDefaults)], wanted: Option<GaitName>) -> Result<GaitDefaults> {
-    let defaults = match wanted {
-        Some(_) => Some(walker::defaults(gaits, wanted)?),
-        None => gaits.iter().map(|(_, defaults)| defaults.clone()).find(|defaults| defaults.gait.is_one_step()),
-    };
-    let defaults = defaults.filter(|defaults| defaults.gait.is_one_step());
-    defaults.ok_or_else(|| {
-        bad("a path needs a gait by one step goal; give --gait osg, rh0, rh0-sim or rh0-real, if this robot has it")
-    })
+/// The notes of a plan, and one about a small margin.
+fn notes(pilot: &Pilot, plan: &Plan) -> Vec<String> {
+    let biped = &pilot.walker().biped;
+    let narrow = narrow(biped, &Summary::of(biped, &plan.walk));
+    plan.notes().into_iter().chain(narrow).collect()
 }
 
 fn bad(text: &str) -> Error {

@@ -7,11 +7,11 @@ use serde_json::json;
 use super::feedback::Feedback;
 use super::files::is_json;
 use super::json::FORMAT;
-use super::moving::{self, Motion, described};
+use super::moving::{self, Motion};
 use super::output::{Force, Kind, Output};
-use super::physics::{Case, Motor, Push, ScriptOutput, Stage, whole};
+use super::physics::{Case, Motor, Push, ScriptOutput, Stage};
 use super::progress::{Limits, Session, seconds};
-use super::walker::{self, Named, Shod, SoleArguments};
+use super::walker::{self, Described, Named, Shod, SoleArguments};
 use super::{Halt, Outcome, console};
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_humanoid::gait::Walker;
@@ -188,9 +188,8 @@ impl Arguments {
             );
             return Err(Error::new(ErrorKind::UnknownName, text));
         }
-        // MuJoCo reads meshes from another folder.
-        let (robot, meshes) =
-            described(&if model.exists() { whole(&model) } else { model.clone() }, &self.soles.options())?;
+        let described = Described::read(&model.to_string_lossy(), &self.soles)?;
+        let robot = &described.robot;
         if let Some(joint) = plan.joints.iter().find(|joint| robot.joint(&joint.name).is_err()) {
             let text = format!(
                 "the walk moves joint `{}`, which {} does not have; give its robot by --model",
@@ -200,11 +199,11 @@ impl Arguments {
             return Err(Error::new(ErrorKind::UnknownName, text).in_file(file));
         }
         if self.open_loop {
+            let Described { robot, meshes, .. } = described;
             let shod = walker::with_soles(robot, &meshes, &self.soles)?;
             return Ok(Walking { plan, shod, meshes, walker: None });
         }
-        let Named { shod, meshes, walker, .. } =
-            walker::named(&model.to_string_lossy(), Outline::default(), &self.soles, watch)?;
+        let Named { shod, meshes, walker, .. } = described.walker(Outline::default(), &self.soles, watch)?;
         Ok(Walking { plan, shod, meshes, walker: Some(walker) })
     }
 

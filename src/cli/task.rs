@@ -135,7 +135,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let mut json_report = json_report(&performed, &checks);
     arguments.write(&output, &named, &performed, &json_report)?;
     if let (Some(file), Some(last)) = (&arguments.plot, performed.stages.last()) {
-        let plan = Plan { course: last.course.clone(), walk: performed.walk.clone(), refusals: Vec::new() };
+        let plan =
+            Plan { course: last.course.clone(), walk: performed.walk.clone(), refusals: Vec::new(), unblended: None };
         let floor = Floor::new(&last.room.map()?, arguments.apart)?;
         output.write(file, Kind::Markup, plan.to_svg(&pilot, &floor))?;
     }

@@ -150,7 +150,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
 }
 
 /// A note about a margin below 5 mm and 5 % of the sole's width, which a walk has only on request.
-fn narrow(biped: &Biped, summary: &Summary) -> Option<String> {
+pub fn narrow(biped: &Biped, summary: &Summary) -> Option<String> {
     let sides = biped.feet[0].corners.iter().map(|corner| corner.y);
     let (low, high) = sides.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)));
     let least = LEAST_MARGIN.min(LEAST_SHARE * (high - low));

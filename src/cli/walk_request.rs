@@ -120,7 +120,7 @@ impl RequestArguments {
             plan_at((biped, &walker.legs), self.hip_height, &defaults.hip_heights, request, watch)
         };
         if self.gait.is_some() || !is_described {
-            return planned(walker::defaults(&walker.gaits, self.gait)?);
+            return planned(walker::defaults(walker, self.gait)?);
         }
         let (blended, resting): (Vec<_>, Vec<_>) = walker.gaits.iter().partition(|(_, own)| own.gait == Gait::Preview);
         let mut walk = Err(bad("the robot has no gait".into()));

@@ -1,6 +1,6 @@
 //! Walkers by name, and from a description, whose legs are derived first.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use nalgebra::Point2;
@@ -34,19 +34,19 @@ pub enum GaitName {
     Rh0Real,
 }
 
+impl GaitName {
+    /// Its name on the command line, and among the gaits of a walker.
+    pub fn name(self) -> String {
+        clap::ValueEnum::to_possible_value(&self).map(|value| value.get_name().to_owned()).unwrap_or_default()
+    }
+}
+
 /// The parameters of the gait of that name; of the first one without a name.
 ///
 /// # Errors
 /// [`ErrorKind::BadValue`] for a gait that this robot does not have.
-pub fn defaults(gaits: &[(&'static str, GaitDefaults)], wanted: Option<GaitName>) -> Result<GaitDefaults> {
-    let Some(wanted) = wanted else { return Ok(gaits[0].1.clone()) };
-    let value = clap::ValueEnum::to_possible_value(&wanted);
-    let wanted = value.as_ref().map_or("", |value| value.get_name());
-    let found = gaits.iter().find(|(name, _)| *name == wanted);
-    found.map(|(_, defaults)| defaults.clone()).ok_or_else(|| {
-        let names = gaits.iter().map(|(name, _)| format!("`{name}`")).collect::<Vec<_>>().join(", ");
-        Error::new(ErrorKind::BadValue, format!("this robot does not have the gait `{wanted}`; give one of {names}"))
-    })
+pub fn defaults(walker: &Walker, wanted: Option<GaitName>) -> Result<GaitDefaults> {
+    wanted.map_or_else(|| Ok(walker.gaits[0].1.clone()), |wanted| walker.gait(&wanted.name()).cloned())
 }
 
 /// Moves the gait of that name, if one is wanted, to the front of a walker's gaits.
@@ -55,7 +55,7 @@ pub fn defaults(gaits: &[(&'static str, GaitDefaults)], wanted: Option<GaitName>
 /// As [`defaults`].
 pub fn prefer(walker: &mut Walker, wanted: Option<GaitName>) -> Result<()> {
     if wanted.is_some() {
-        let first = defaults(&walker.gaits, wanted)?;
+        let first = defaults(walker, wanted)?;
         walker.gaits.sort_by_key(|(_, gait)| *gait != first);
     }
     Ok(())
@@ -102,43 +102,80 @@ pub struct Shod {
 /// The robot of that name, or from a file.
 ///
 /// # Errors
-/// [`ErrorKind::UnknownName`] for what is neither a robot of this crate nor a file; those of the readers, of [`Footing::find`],
-/// [`Footing::walker`] and [`Options::derive`].
+/// As [`Described::read`] and [`Described::walker`].
 pub fn named(name: &str, outline: Outline, soles: &SoleArguments, watch: &Watch) -> Result<Named> {
-    match (walkers::walker(name, outline), robots::robot(name)) {
-        (Some(walker), Some(robot)) => {
-            let meshes = Meshes::default();
-            let shod = with_soles(robot.clone(), &meshes, soles)?;
-            Ok(Named { robot, meshes, walker: walker?, shod })
+    Described::read(name, soles)?.walker(outline, soles, watch)
+}
+
+/// A description that was read, of a robot that may walk.
+pub struct Described {
+    /// The robot as described.
+    pub robot: Robot,
+    /// The folders of its meshes.
+    pub meshes: Meshes,
+    source: Source,
+}
+
+/// The source of a description.
+enum Source {
+    /// A robot of groebot, by its name.
+    Name(String),
+    File(PathBuf),
+}
+
+impl Described {
+    /// The robot of that name, or of a file.
+    ///
+    /// # Errors
+    /// [`ErrorKind::UnknownName`] for what is neither a robot of groebot nor a file; those of the readers.
+    pub fn read(name: &str, soles: &SoleArguments) -> Result<Self> {
+        if let Some(robot) = robots::robot(name) {
+            return Ok(Described { robot, meshes: Meshes::default(), source: Source::Name(name.to_owned()) });
         }
-        _ => described(Path::new(name), soles, watch),
+        let file = Path::new(name);
+        if !is_stdin(file) && !file.exists() {
+            return Err(neither(name));
+        }
+        let input = InputFile::read_with(file, &soles.options())?;
+        let Description::Robot(robot) = input.description else {
+            let text = "this does not describe a robot with links; a walk needs one, in URDF, xacro, MJCF, SDF or TOML";
+            return Err(Error::new(ErrorKind::BadValue, text).in_file(&input.path));
+        };
+        // MuJoCo reads meshes from another folder.
+        let meshes = Meshes::beside_with(&whole(&input.path), soles.options());
+        Ok(Described { robot, meshes, source: Source::File(input.path) })
+    }
+
+    /// Its walker. The legs of a description are derived.
+    ///
+    /// # Errors
+    /// [`ErrorKind::UnknownName`] for a robot of groebot that does not walk; those of [`Footing::find`],
+    /// [`Footing::walker`] and [`Options::derive`].
+    pub fn walker(self, outline: Outline, soles: &SoleArguments, watch: &Watch) -> Result<Named> {
+        let Described { robot, meshes, source } = self;
+        let file = match source {
+            Source::Name(name) => {
+                let walker = walkers::walker(&name, outline).ok_or_else(|| neither(&name))??;
+                let shod = with_soles(robot.clone(), &meshes, soles)?;
+                return Ok(Named { robot, meshes, walker, shod });
+            }
+            Source::File(file) => file,
+        };
+        let at_file = |error: Error| error.in_file(&file);
+        let footing = soles.footing(&robot, &meshes).map_err(at_file)?;
+        let leg = |chain: &Chain| -> Result<LegSolver> {
+            Ok(Arc::new(Options::new().watch(watch.clone()).derive(chain)?.solver()))
+        };
+        let walker = footing.walker(leg).map_err(at_file)?;
+        let shod = shod(&footing, &robot).map_err(at_file)?;
+        let notes = footing.notes().to_vec();
+        Ok(Named { robot: footing.robot().clone().with_notes(notes), meshes, walker, shod })
     }
 }
 
-fn described(file: &Path, soles: &SoleArguments, watch: &Watch) -> Result<Named> {
-    let name = file.to_string_lossy();
-    if !is_stdin(file) && !file.exists() {
-        let text =
-            format!("`{}` is neither a file nor a walking robot; give a file, `nao`, `rh0` or `teo`", shown(&name));
-        return Err(Error::new(ErrorKind::UnknownName, text));
-    }
-    let input = InputFile::read_with(file, &soles.options())?;
-    let file = &input.path;
-    let Description::Robot(robot) = input.description else {
-        let text = "this does not describe a robot with links; a walk needs one, in URDF, xacro, MJCF, SDF or TOML";
-        return Err(Error::new(ErrorKind::BadValue, text).in_file(file));
-    };
-    let at_file = |error: Error| error.in_file(file);
-    // MuJoCo reads meshes from another folder.
-    let meshes = Meshes::beside_with(&whole(file), soles.options());
-    let footing = soles.footing(&robot, &meshes).map_err(at_file)?;
-    let leg = |chain: &Chain| -> Result<LegSolver> {
-        Ok(Arc::new(Options::new().watch(watch.clone()).derive(chain)?.solver()))
-    };
-    let walker = footing.walker(leg).map_err(at_file)?;
-    let shod = shod(&footing, &robot).map_err(at_file)?;
-    let notes = footing.notes().to_vec();
-    Ok(Named { robot: footing.robot().clone().with_notes(notes), meshes, walker, shod })
+fn neither(name: &str) -> Error {
+    let text = format!("`{}` is neither a file nor a walking robot; give a file, `nao`, `rh0` or `teo`", shown(name));
+    Error::new(ErrorKind::UnknownName, text)
 }
 
 /// The robot with the collision shapes of its soles. The soles of a robot of groebot are `l_sole` and `r_sole`.

@@ -85,6 +85,18 @@ impl Walker {
         let gaits = vec![("osg", one_step(&biped)), ("preview", preview_defaults(&biped))];
         Ok(Walker { biped, legs, gaits })
     }
+
+    /// The default parameters of its gait `name`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for a gait that it does not have, with the names of its gaits.
+    pub fn gait(&self, name: &str) -> Result<&GaitDefaults> {
+        let found = self.gaits.iter().find(|(own, _)| *own == name);
+        found.map(|(_, defaults)| defaults).ok_or_else(|| {
+            let names = self.gaits.iter().map(|(name, _)| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+            Error::new(ErrorKind::BadValue, format!("this robot does not have the gait `{name}`; give one of {names}"))
+        })
+    }
 }
 
 /// All joints at zero, or at the nearest limit; joints that follow others take the value of their leader.

@@ -4,7 +4,7 @@
 //! A [`Pilot`] is a walker with its [`Body`] and its step limits, [`Reach`]. On a [`Floor`] it finds a [`Course`] to
 //! its [`Goal`], and follows it step by step in a [`Journey`]. Each step is a walk of its own by one step goal (OSG;
 //! UPA in the thesis), so that goal and obstacles may change between two steps. A [`Plan`] can walk the same footsteps
-//! without rests. The world has z up and the floor at 0; metres, seconds, radians.
+//! without rests; a [`Navigator`] plans so. The world has z up and the floor at 0; metres, seconds, radians.
 
 mod blend;
 mod body;
@@ -14,6 +14,7 @@ mod floor;
 mod follow;
 mod journey;
 mod lattice;
+mod navigator;
 mod pilot;
 mod plan;
 mod reach;
@@ -25,6 +26,7 @@ pub use body::Body;
 pub use course::{Blocked, Course, Goal, Method, Search};
 pub use floor::Floor;
 pub use journey::Journey;
+pub use navigator::Navigator;
 pub use pilot::Pilot;
 pub use plan::Plan;
 pub use reach::Reach;

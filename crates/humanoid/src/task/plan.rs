@@ -6,7 +6,7 @@ use super::course::{Blocked, Course, Search};
 use super::floor::Floor;
 use super::journey::Journey;
 use super::pilot::Pilot;
-use super::refusal::Refusal;
+use super::refusal::{Reason, Refusal};
 use crate::gait::{Footprint, Walk};
 use crate::{Result, Watch};
 
@@ -19,6 +19,8 @@ pub struct Plan {
     pub walk: Walk,
     /// The steps that were planned and not taken.
     pub refusals: Vec<Refusal>,
+    /// Why the robot rests after each step, where a walk without rests was requested.
+    pub unblended: Option<Reason>,
 }
 
 impl Plan {
@@ -41,7 +43,13 @@ impl Plan {
         let mut journey = Journey::new(pilot, floor, feet, watch)?;
         while journey.step(floor, &course, watch)? {}
         let refusals = journey.refusals().to_vec();
-        Ok(Ok(Plan { course, walk: journey.finish(watch)?, refusals }))
+        Ok(Ok(Plan { course, walk: journey.finish(watch)?, refusals, unblended: None }))
+    }
+
+    /// What differs from the requested walk, one line each.
+    pub fn notes(&self) -> Vec<String> {
+        let text = |reason| format!("the robot rests after each step, because preview control fails: {reason}");
+        self.unblended.iter().map(text).collect()
     }
 }
 
