@@ -24,11 +24,11 @@ wheel() {
     local size
     size=$(stat --format %s "$made"/*.whl)
     printf '%s: %d bytes\n' "$(basename "$made"/*.whl)" "$size"
+    mv "$made"/*.whl "$dist"
     if [ "$size" -gt "$limit" ]; then
         echo "the wheel is larger than $limit bytes" >&2
         exit 1
     fi
-    mv "$made"/*.whl "$dist"
 }
 
 for part in "$@"; do

@@ -4,7 +4,7 @@
     cargo build --release --manifest-path python/benches/printed/Cargo.toml
     peers/bin/python python/benches/peers.py python/benches/printed/target/release/libgroebot_printed.so > benches/record/DATE-python.csv
 
-Two robots are compiled in the wheel; three are derived in this run, from numbers that no built-in robot has. All solve poses that random joint values reach.
+Three robots are compiled in the wheel; three are derived in this run, from numbers that no built-in robot has. All solve poses that random joint values reach.
 Contestants take turns. The record has medians over the rounds: the wall time, the processor time, which is nearly independent of other processes, and the ratio of
 the processor time to that of the robot's first contestant in the same round. A contestant that cannot run has a row with the reason.
 """
@@ -61,6 +61,7 @@ def cases(folder: Path) -> dict[str, Case]:
     kr6_r900 = dict(a1=0.025, a2=-0.035, b=0, c1=0.4, c2=0.455, c3=0.42, c4=0.08)
     return {
         "ur5": Case(groebot.Solver.named("ur5"), *of_ur, "ur5_ik"),
+        "irb120": Case(groebot.Solver.named("irb120"), *of_puma),
         "puma560": Case(groebot.Solver.named("puma560"), *of_puma, "puma560_ik", puma560),
         "ur_type, derived from a DH table": Case(ur_type(folder), *of_ur),
         "kr6_r900, derived from a URDF": Case(groebot.derive(ROOT / "tests/corpus/urdf/kr6_r900.urdf"), *of_puma, None, kr6_r900),
@@ -82,11 +83,12 @@ def axes_and_offsets(solver, wrist):
 
 def of_printed(library, name, poses):
     """Generated Rust, called by ctypes: one call solves all targets."""
-    solve = getattr(ctypes.CDLL(library), name)
-    solve.restype, solve.argtypes = ctypes.c_size_t, [ctypes.c_void_p, ctypes.c_size_t]
     many = np.resize(poses, (MANY, 4, 4))
     numbers = np.ascontiguousarray(np.concatenate([many[:, :3, 3], many[:, :3, :3].reshape(-1, 9)], 1))
-    yield "generated Rust, solve_batch", MANY, lambda: solve(numbers.ctypes.data, MANY)
+    for label, kind in [("generated Rust, solutions kept", "all"), ("generated Rust, memory of 256 poses reused", "pieces")]:
+        solve = getattr(ctypes.CDLL(library), f"{name}_{kind}")
+        solve.restype, solve.argtypes = ctypes.c_size_t, [ctypes.c_void_p, ctypes.c_size_t]
+        yield label, MANY, lambda solve=solve: solve(numbers.ctypes.data, MANY)
 
 
 def of_groebot(solver, poses):

@@ -15,35 +15,41 @@ const EXACT: f64 = 1e-10;
 /// Steps of the projection: each squares the deviation, so that 0.1 is below the rounding of doubles after five.
 const STEPS: usize = 6;
 
-/// The deviation of a matrix from the orthogonal ones: the largest entry of R^T R - 1.
-fn deviation(turn: &Matrix3<f64>) -> f64 {
-    let mut most = 0.0_f64;
-    for i in 0..3 {
-        for j in 0..=i {
-            let dot = turn.column(i).dot(&turn.column(j)) - if i == j { 1.0 } else { 0.0 };
-            most = most.max(dot.abs());
-        }
-    }
-    most
+/// The deviation of a matrix, row by row, from the orthogonal ones: the largest entry of R^T R - 1. NaN if a number is.
+fn deviation(r: &[f64; 9]) -> f64 {
+    let dot = |i: usize, j: usize| r[i] * r[j] + r[3 + i] * r[3 + j] + r[6 + i] * r[6 + j];
+    let off = [dot(0, 0) - 1.0, dot(1, 1) - 1.0, dot(2, 2) - 1.0, dot(0, 1), dot(0, 2), dot(1, 2)].map(f64::abs);
+    // `max` ignores NaN, a sum does not.
+    if off.iter().sum::<f64>().is_nan() { f64::NAN } else { off.into_iter().fold(0.0, f64::max) }
 }
 
-/// Replaces a matrix, row by row, by the nearest rotation if its deviation is at most `tolerance`. Returns whether it is a rotation. A matrix that is exact
-/// already is unchanged, to the last bit. The steps R (3 - R^T R) / 2 converge to the nearest orthogonal matrix (N. J. Higham, SIAM Journal on Scientific and
-/// Statistical Computing 7, 1986).
-pub fn project(entries: &mut [f64], tolerance: f64) -> bool {
-    let mut turn = Matrix3::from_row_slice(entries);
-    let off = deviation(&turn);
-    if off.is_nan() || off > tolerance.max(EXACT) || turn.determinant() < 0.0 {
+/// The determinant of a matrix, row by row.
+fn determinant(r: &[f64; 9]) -> f64 {
+    r[0] * (r[4] * r[8] - r[5] * r[7]) - r[1] * (r[3] * r[8] - r[5] * r[6]) + r[2] * (r[3] * r[7] - r[4] * r[6])
+}
+
+/// Replaces a matrix, row by row, by the nearest rotation if its deviation is at most `tolerance`. Returns whether it is a rotation; false for numbers that are
+/// not finite. A matrix that is exact already is unchanged, to the last bit. The steps R (3 - R^T R) / 2 converge to the nearest orthogonal matrix (N. J. Higham,
+/// SIAM Journal on Scientific and Statistical Computing 7, 1986).
+#[inline]
+pub fn project(entries: &mut [f64; 9], tolerance: f64) -> bool {
+    let off = deviation(entries);
+    if off.is_nan() || off > tolerance.max(EXACT) || determinant(entries) < 0.0 {
         return false;
     }
-    if off <= EXACT {
-        return true;
+    if off > EXACT {
+        *entries = nearest(entries);
     }
+    true
+}
+
+/// The rotation nearest to a matrix, both row by row.
+fn nearest(entries: &[f64; 9]) -> [f64; 9] {
+    let mut turn = Matrix3::from_row_slice(entries);
     for _ in 0..STEPS {
         turn = turn * (Matrix3::identity() * 3.0 - turn.transpose() * turn) * 0.5;
     }
-    entries.copy_from_slice(turn.transpose().as_slice());
-    true
+    std::array::from_fn(|i| turn[(i / 3, i % 3)])
 }
 
 /// The matrix of a quaternion x, y, z, w, row by row; `None` if its length differs from one by more than `tolerance`.
@@ -57,8 +63,8 @@ pub fn matrix_of_quaternion(quaternion: [f64; 4], tolerance: f64) -> Option<[f64
 
 /// The deviation of a right-handed matrix, row by row, that a greater tolerance can accept.
 pub fn matrix_deviation(entries: &[f64]) -> Option<f64> {
-    let turn = Matrix3::from_row_slice(entries);
-    Some(deviation(&turn)).filter(|off| *off <= MAX_TOLERANCE && turn.determinant() > 0.0)
+    let entries = entries.try_into().ok()?;
+    Some(deviation(entries)).filter(|off| *off <= MAX_TOLERANCE && determinant(entries) > 0.0)
 }
 
 /// The difference of a quaternion's length from one that a greater tolerance can accept.

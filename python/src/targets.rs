@@ -49,6 +49,7 @@ impl<'a> Targets<'a> {
     }
 
     /// Writes the numbers of a target, and returns the fault of its form. The first number of an invalid target is NaN, so that no solver solves it.
+    #[inline]
     pub fn row(&self, index: usize, out: &mut [f64]) -> Status {
         let row = &self.data[index * self.width..][..self.width];
         let status = match self.form {
@@ -60,11 +61,13 @@ impl<'a> Targets<'a> {
             Form::Quaternion => self.by_quaternion(row, out),
         };
         let given = self.inputs - self.numbers();
-        let start = if self.given.len() == given { 0 } else { index * given };
-        out[self.numbers()..].copy_from_slice(&self.given[start..start + given]);
-        let status = match self.rotation {
-            Some(first) if status == Status::Solved && self.form != Form::Quaternion => {
-                self.by_entries(&mut out[first..first + 9])
+        if given > 0 {
+            let start = if self.given.len() == given { 0 } else { index * given };
+            out[self.numbers()..].copy_from_slice(&self.given[start..start + given]);
+        }
+        let status = match self.rotation.map(|first| out[first..].first_chunk_mut()) {
+            Some(Some(entries)) if status == Status::Solved && self.form != Form::Quaternion => {
+                self.by_entries(entries)
             }
             _ => status,
         };
@@ -116,18 +119,26 @@ impl<'a> Targets<'a> {
     }
 
     /// Projects the entries of a rotation matrix, row by row.
-    fn by_entries(&self, entries: &mut [f64]) -> Status {
-        if entries.iter().any(|entry| !entry.is_finite()) {
-            return Status::NotFinite;
+    fn by_entries(&self, entries: &mut [f64; 9]) -> Status {
+        if project(entries, self.tolerance) {
+            Status::Solved
+        } else if entries.iter().all(|entry| entry.is_finite()) {
+            Status::NotRotation
+        } else {
+            Status::NotFinite
         }
-        if project(entries, self.tolerance) { Status::Solved } else { Status::NotRotation }
     }
 }
 
 fn by_matrix(row: &[f64], out: &mut [f64]) -> Status {
-    for i in 0..3 {
-        out[i] = row[4 * i + 3];
-        out[3 + 3 * i..6 + 3 * i].copy_from_slice(&row[4 * i..4 * i + 3]);
+    // Arrays of constant length need no checks of indices.
+    if let (Some(row), Some(out)) = (row.first_chunk::<16>(), out.first_chunk_mut::<12>()) {
+        for i in 0..3 {
+            out[i] = row[4 * i + 3];
+            for j in 0..3 {
+                out[3 + 3 * i + j] = row[4 * i + j];
+            }
+        }
     }
     if has_last_row(row) {
         Status::Solved

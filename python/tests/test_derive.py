@@ -147,8 +147,8 @@ def test_a_path_is_continuous_or_reports_its_jumps():
     route = q0 + np.linspace(0, 1, 50)[:, None] * np.array([0.5, 0.3, -0.4, 0.2, 0.3, 4.0])
     path = ur5.solve_path(ur5.forward(route), q0)
     assert path.jumps == [] and np.abs(path.q - route).max() < 1e-9
-    turned = ur5.solve_path(ur5.forward(route), q0 + [0, 0, 0, 0, 0, 2 * np.pi])
-    assert np.abs(turned.q - route - [0, 0, 0, 0, 0, 2 * np.pi]).max() < 1e-9
+    turned = ur5.solve_path(ur5.forward(route), q0 + [0, 0, 0, 0, 0, -2 * np.pi])
+    assert np.abs(turned.q - route - [0, 0, 0, 0, 0, -2 * np.pi]).max() < 1e-9
     away = ur5.solve_path(ur5.forward(route), q0 + [2.0, 0, 0, 0, 0, 0])
     assert away.jumps[0].index == 0 and "does not begin" in away.jumps[0].why
     torn = np.concatenate([route[:25], route[25:] + [1.5, 0, 0, 0, 0, 0]])
