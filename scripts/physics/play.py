@@ -129,7 +129,7 @@ class Robot:
             if self.described[actuator]:
                 self.take(actuator, dof)
             else:
-                model.dof_armature[dof] = self.inertia(actuator, model.dof_armature[dof])
+                model.dof_armature[dof] = max(model.dof_armature[dof], self.inertia(actuator))
         self.nominal = self.stiffness.copy()
         self.stiffness *= gain
         model.actuator_gainprm[:, 0] = self.stiffness
@@ -144,15 +144,12 @@ class Robot:
             damping = 2 * math.sqrt(stiffness * model.dof_armature[dof])
         self.stiffness[actuator], self.damping[actuator] = stiffness, damping
 
-    def inertia(self, actuator, described):
-        """The inertia of a motor at its joint: that of the description (`armature`), else by the limits of its effort and its velocity (`user`), else by the
-        robot's size."""
+    def inertia(self, actuator):
+        """The inertia of a motor at its joint: by the limits of its effort and its velocity (`user`) where there are both, else by the robot's size."""
         model = self.model
         speed = model.actuator_user[actuator, 0] if model.nuser_actuator else 0.0
         # The servo's own frequency is at most 1 / (2 STEP): MuJoCo integrates this stably.
         least = self.stiffness[actuator] * (2 * STEP) ** 2
-        if described > 0.0:
-            return max(described, least)
         if speed == 0.0 or not model.actuator_forcelimited[actuator]:
             return self.armature
         return min(max(MOTOR_TIME * model.actuator_forcerange[actuator, 1] / speed, least), self.armature)

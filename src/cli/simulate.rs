@@ -33,8 +33,8 @@ MuJoCo is an external program. GROEBOT_PYTHON is a Python that has it, by defaul
 -m venv mujoco && mujoco/bin/pip install mujoco). The robot is exported to MJCF as by `export`.
 
 Motors are position servos: torque = stiffness (command - q) - damping (q' - planned q'), within the
-efforts of the description, with an inertia at the joint. Position gains and rotor inertias of the
-description (MJCF) are used where it has them. Otherwise the stiffness is 30 m g l, the damping
+efforts of the description, with an inertia at the joint. Position gains of the description (MJCF)
+are used where it has them, with its rotor inertias. Otherwise the stiffness is 30 m g l, the damping
 1.5 m g^0.5 l^1.5 and the inertia 0.21 m l^2, where m is the robot's mass and l is 0.63 of the height
 of its torso; with an effort limit, the stiffness is at most effort / 10 mrad, the damping less in
 proportion, and with a velocity limit too, the inertia is that with which the motor reaches the

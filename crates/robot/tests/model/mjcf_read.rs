@@ -113,7 +113,9 @@ fn servos_are_the_position_gains_of_actuators() {
     assert_eq!(servos, [Some([80.0, 4.0]), Some([10.0, 3.0]), None, None]);
     let written = robot.to_mjcf(&Meshes::default(), &mut Vec::new()).unwrap();
     assert!(written.contains("joint=\"a\" kp=\"80\" kv=\"4\" user=\"0 1\"/>"), "{written}");
-    assert!(written.contains("joint=\"c\" kp=\"100\"/>"), "{written}");
+    assert!(written.contains("joint=\"c\" kp=\"100\" user=\"0 0\"/>"), "{written}");
+    let again = Robot::from_mjcf(&written, None).unwrap();
+    assert_eq!(["a", "b", "c", "d"].map(|name| servo(&again, name)), servos);
 }
 
 #[test]

@@ -39,14 +39,14 @@ pub(super) fn from_xml(read: &DescriptionText, file: &Path) -> Result<(Descripti
     let urdf = robot.to_urdf();
     let again = Robot::from_urdf(&urdf).map_err(|error| error.with_context("as URDF"))?;
     let mut parts = again.parts().clone();
-    // Messages are about the file itself.
+    // Messages are about the file itself. URDF has no gains of servos.
     parts.notes.clone_from(&robot.parts().notes);
     parts.faults.clear();
     for (link, own) in parts.links.iter_mut().zip(robot.links()) {
         (link.line, link.notes) = (own.line, own.notes.clone());
     }
     for (joint, own) in parts.joints.iter_mut().zip(robot.joints()) {
-        (joint.line, joint.notes) = (own.line, own.notes.clone());
+        (joint.line, joint.notes, joint.servo) = (own.line, own.notes.clone(), own.servo);
     }
     let again = Robot::with_faults(parts)?;
     Ok((Description::Robot(again), urdf))

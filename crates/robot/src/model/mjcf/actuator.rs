@@ -33,7 +33,8 @@ impl<'e> Reader<'_, 'e> {
             let styled = self.classes.styled(element, MAIN, &[element.name.as_str(), "general"])?;
             let effort = self.effort(element, &styled)?;
             let gear = gear(&styled)?;
-            let [stiffness, damping] = gains(element, &styled)?.map(|gain| gain * gear * gear);
+            let gains = if has_gains(element) { gains(element, &styled)? } else { [0.0; 2] };
+            let [stiffness, damping] = gains.map(|gain| gain * gear * gear);
             let servo = servos.entry(joint).or_insert(Servo { stiffness: 0.0, damping: 0.0 });
             (servo.stiffness, servo.damping) = (servo.stiffness + stiffness, servo.damping + damping);
             let sum = efforts.entry(joint).or_insert(Some(0.0));
@@ -80,6 +81,12 @@ impl<'e> Reader<'_, 'e> {
 /// The ratio of an actuator's motion to that of its joint.
 fn gear(styled: &Styled<'_>) -> Result<f64> {
     Ok(styled.list("gear", 1..=6)?.and_then(|gear| gear.first().map(double)).unwrap_or(1.0))
+}
+
+/// Whether the gains of an actuator are those of a motor. The second number of `user` is 0 in models by [`Robot::to_mjcf`](crate::model::Robot::to_mjcf) of robots
+/// without gains.
+fn has_gains(element: &Element) -> bool {
+    element.attribute("user").and_then(|numbers| numbers.split_whitespace().nth(1)) != Some("0")
 }
 
 /// The position gain and the velocity gain of an actuator, in its own motion; zero where it has none. `dampratio` and `timeconst`, which depend on the masses of

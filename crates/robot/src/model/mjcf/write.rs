@@ -78,16 +78,14 @@ impl Robot {
             let name = escaped(&joint.name);
             let force = joint.effort.filter(|effort| *effort > 0.0);
             let force = force.map(|effort| format!(" forcerange=\"-{effort} {effort}\"")).unwrap_or_default();
-            // MJCF has no velocity limits; `user` is for such data: the limit, or 0, and 1 for gains of the description.
-            let speed = joint.speed.filter(|speed| *speed > 0.0);
-            let (gains, user) = match joint.servo {
-                Some(Servo { stiffness, damping }) => {
-                    (format!("kp=\"{stiffness}\" kv=\"{damping}\""), Some(format!("{} 1", speed.unwrap_or(0.0))))
-                }
-                None => ("kp=\"100\"".to_owned(), speed.map(|speed| speed.to_string())),
-            };
-            let user = user.map(|user| format!(" user=\"{user}\"")).unwrap_or_default();
-            format!("    <position name=\"{name}\" joint=\"{name}\" {gains}{force}{user}/>\n")
+            // MJCF has no velocity limits; `user` is for such data: the limit, or 0, and whether the gains are those of a description.
+            let speed = joint.speed.filter(|speed| *speed > 0.0).unwrap_or(0.0);
+            let gains = joint.servo.map_or_else(
+                || "kp=\"100\"".to_owned(),
+                |Servo { stiffness, damping }| format!("kp=\"{stiffness}\" kv=\"{damping}\""),
+            );
+            let described = u8::from(joint.servo.is_some());
+            format!("    <position name=\"{name}\" joint=\"{name}\" {gains}{force} user=\"{speed} {described}\"/>\n")
         };
         self.leaders().map(servo).collect()
     }
