@@ -184,7 +184,7 @@ pub mod derive {
 /// From a map to a path, to footsteps, to joint angles: the whole task of a walking robot.
 pub mod task {
     pub use groebot_humanoid::task::{
-        Blocked, Body, Floor, Goal, Method, Obstacle, Pilot, Plan, Reach, Reason, Refusal,
+        Blocked, Body, Floor, Goal, Method, Navigator, Obstacle, Pilot, Plan, Reach, Reason, Refusal,
     };
 }
 

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use groebot::motion::Trajectory;
 use tempfile::tempdir;
 
 use super::simulate::{is_skipped, number, reported, with_python};
@@ -72,18 +73,49 @@ fn all_walks_of_the_documentation_stand() {
     commands().iter().for_each(|command| stands(command));
 }
 
+/// NAO's description with this torque of all motors [N m].
+fn nao_with_efforts(effort: &str) -> String {
+    let urdf = succeed(&["export", "nao", "--to", "urdf"]);
+    let parts = urdf.split("effort=\"").enumerate().map(|(place, part)| match (place, part.split_once('"')) {
+        (1.., Some((_, rest))) => format!("effort=\"{effort}\"{rest}"),
+        _ => part.to_owned(),
+    });
+    parts.collect()
+}
+
+/// NAO with motors of 1.8 N m falls by its default gait, and stands when it walks more slowly. What is written is the walk that stands.
+#[test]
+fn a_walk_that_falls_is_repaired() {
+    let folder = tempdir().unwrap();
+    let [model, fallen, repaired] = ["weak.urdf", "fallen.csv", "repaired.csv"].map(|name| folder.path().join(name));
+    fs::write(&model, nao_with_efforts("1.8")).unwrap();
+    let walked = ["walk", text(&model), "--goal", "0.1,0", "--gait", "preview"];
+    let falls = with_python(&[&walked[..], &["--verify", "-o", text(&fallen)]].concat(), None);
+    if is_skipped(&falls) {
+        return;
+    }
+    assert!(falls.code == 5 && !fallen.exists(), "{}", falls.err);
+    assert!(falls.err.contains("error: simulated: the robot falls at ") && falls.out.is_empty(), "{}", falls.err);
+    succeed(&[&walked[..], &["-o", text(&fallen), "--quiet"]].concat());
+    let stands = with_python(&[&walked[..], &["--repair", "-o", text(&repaired)]].concat(), None);
+    assert!(stands.code == 0, "{}", stands.err);
+    let note = stands.err.lines().find(|line| line.starts_with("note: simulated: the robot would fall at ")).unwrap();
+    assert!(note.contains("it stands with steps that last "), "{note}");
+    let seconds = |file: &Path| *Trajectory::read_csv(file).unwrap().times.last().unwrap();
+    assert!(seconds(&repaired) > seconds(&fallen));
+    for (file, code) in [(&fallen, 5), (&repaired, 0)] {
+        let report = reported(&[text(file), "--model", text(&model)], code).unwrap();
+        assert_eq!(report["run"]["fell"].is_null(), code == 0);
+    }
+}
+
 /// A walk that stands is written; without MuJoCo, or if it falls, nothing is. The robot that falls is NAO with motors too weak for its weight.
 #[test]
 fn a_plan_is_verified_before_it_is_written() {
     let folder = tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
     let (file, nowhere, weak) = (at("walk.csv"), at("no_python"), at("weak.urdf"));
-    let urdf = succeed(&["export", "nao", "--to", "urdf"]);
-    let efforts = urdf.split("effort=\"").enumerate().map(|(place, part)| match (place, part.split_once('"')) {
-        (1.., Some((_, rest))) => format!("effort=\"0.6\"{rest}"),
-        _ => part.to_owned(),
-    });
-    fs::write(&weak, efforts.collect::<String>()).unwrap();
+    fs::write(&weak, nao_with_efforts("0.6")).unwrap();
     let ran = |arguments: &[&str], python: Option<&Path>| {
         with_python(&[&["walk"], arguments, &["-o", text(&file)]].concat(), python)
     };

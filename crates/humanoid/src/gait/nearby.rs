@@ -1,9 +1,10 @@
 //! The solution of a leg that is the nearest to given joint values, by Newton's method, with a proof that no other one is nearer. Main type: [`Nearby`].
 //!
-//! Two joint vectors with the same pose of the tip, both in the box of half width `d` about `c`, are equal if the Jacobian `J` of the pose changes so little
-//! there that `|J(c)^-1 J(q) - 1| < 1` for all `q` of the box (mean value theorem; Ortega and Rheinboldt 1970, 3.2). By Taylor's formula this is fulfilled if
-//! `|M2 d + M3 d^2 / 2| < 1`: `M2` has bounds of the entries of `J(c)^-1` times the second derivatives at `c`, and `M3` those of the third ones everywhere. The
-//! norm may have a weight for each joint.
+//! The known solution is `a`, the given values are `c`, and `d` is the greatest difference between them. A solution `b` that is as near to `c` differs from it by
+//! at most `d`, too. Both have the same pose, so the mean of the Jacobian `J` over the segment from `a` to `b` maps `b - a` to zero (mean value theorem). If
+//! this mean is regular, `b` is `a`. With `m = (a + c) / 2`, Taylor's formula at `m` gives the mean times `J(m)^-1`: it differs from the identity by at most
+//! `M2 d / 2 + M3 d^2 7 / 24`. Here `M2` has bounds of the entries of `J(m)^-1` times the second derivatives at `m`, and `M3` those of the third ones
+//! everywhere. The mean is regular if this bound has a norm below one, in which each joint may have a weight (Ortega and Rheinboldt 1970, 2.3 and 3.2).
 
 use nalgebra::{Matrix6, Point3, UnitQuaternion, Vector3, Vector6};
 
@@ -12,13 +13,15 @@ use groebot_robot::spatial::{Axis, Pose, angle};
 
 /// The number of joints of a leg that holds a pose.
 const JOINTS: usize = 6;
-/// The greatest number of Newton steps: from within the box of the proof the error is squared by each of them.
+/// The greatest number of Newton steps: near a solution the error is squared by each of them.
 const STEPS: usize = 8;
 /// The greatest error of the pose of a solution, relative to the length of the leg, and \[rad\]: ten times the rounding
 /// of forward kinematics.
 const HOLDS: f64 = 1e-14;
 /// The part of the bound of the proof that is used. The rest is more than its rounding errors.
 const USED: f64 = 0.99;
+/// The greatest move of a joint for which a proof is tried \[rad\].
+const FAR: f64 = 0.3;
 /// The number of steps of the power method for the weights of the joints in the norm.
 const POWERS: usize = 4;
 /// The least weight of a joint, relative to the greatest.
@@ -62,41 +65,37 @@ impl Nearby {
     /// joint, in (-pi, pi] \[rad\]. `None` where this is not proved: far from `last`, next to a singular posture, and
     /// out of reach.
     pub fn solve(&self, torso_from_tip: &Pose, last: &[f64; JOINTS]) -> Option<[f64; JOINTS]> {
-        let centre = Vector6::from(*last);
-        let placed = self.placed(&centre);
-        let inverse = placed.jacobian().try_inverse()?;
-        let bounds = Bounds { second: second(&placed, &inverse), third: self.third(&inverse) };
-        let is_proved = |step: &Vector6<f64>| bounds.is_unique_within(step.amax());
-        let mut step = inverse * placed.error(torso_from_tip);
-        let mut error = f64::INFINITY;
+        let last = Vector6::from(*last);
+        let move_to = self.solution(torso_from_tip, &last)?;
+        self.is_nearest(&(last + move_to / 2.0), move_to.amax()).then(|| (last + move_to).map(angle::wrap).into())
+    }
+
+    /// The move from `last` to a solution, by Newton's method.
+    fn solution(&self, torso_from_tip: &Pose, last: &Vector6<f64>) -> Option<Vector6<f64>> {
+        let (mut moved, mut error) = (Vector6::zeros(), f64::INFINITY);
         for _ in 0..STEPS {
-            // Comparisons with NaN are false.
-            if !is_proved(&step) {
-                return None;
-            }
-            let placed = self.placed(&(centre + step));
+            let placed = self.placed(&(last + moved));
             let missed = placed.error(torso_from_tip);
             let now = self.relative(&missed);
             if now <= HOLDS && now >= error / 2.0 {
-                return Some((centre + step).map(angle::wrap).into());
+                return Some(moved);
             }
             error = now;
-            step += placed.jacobian().lu().solve(&missed)?;
+            moved += placed.jacobian().lu().solve(&missed)?;
+            if moved.amax() > FAR {
+                return None;
+            }
         }
         None
     }
-}
 
-/// Bounds of the change of the Jacobian about a posture: see the module's page.
-struct Bounds {
-    second: Matrix6<f64>,
-    third: Matrix6<f64>,
-}
-
-impl Bounds {
-    /// Whether no two postures with all joints within `distance` \[rad\] have the tip at the same pose.
-    fn is_unique_within(&self, distance: f64) -> bool {
-        let change = (self.second + self.third * (distance / 2.0)) * distance;
+    /// Whether no other solution is as near to the given values as one at `distance` \[rad\]. `middle` is half-way
+    /// between both.
+    fn is_nearest(&self, middle: &Vector6<f64>, distance: f64) -> bool {
+        let placed = self.placed(middle);
+        let Some(inverse) = placed.jacobian().try_inverse() else { return false };
+        let third = self.third(&inverse) * (distance * distance * 7.0 / 24.0);
+        let change = second(&placed, &inverse) * (distance / 2.0) + third;
         let mut weights = Vector6::repeat(1.0);
         // Any positive weights give a norm; those near the eigenvector give the least one.
         (0..POWERS).any(|_| {

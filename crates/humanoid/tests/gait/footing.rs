@@ -7,7 +7,7 @@ use groebot_humanoid::gait::{Footing, GRAVITY, GaitDefaults, LegSolver, Measures
 use groebot_humanoid::{ErrorKind, Result, Watch};
 use groebot_ik::derive::Options;
 use groebot_robot::dynamics::Model;
-use groebot_robot::kinematics::Chain;
+use groebot_robot::kinematics::{Chain, InverseKinematics, Solution, Target};
 use groebot_robot::model::{Meshes, Robot};
 use groebot_robot::spatial::Pose;
 use nalgebra::{Point2, Point3, Vector3};
@@ -291,6 +291,55 @@ fn soles_that_are_pitched_at_zero_stand_flat() {
             let on_floor = |point: &Point3<f64>| (pose * shape.pose() * point).z.abs() < 1e-6;
             let touching = shape.solid.points().iter().filter(|point| on_floor(point)).count();
             assert!(!reference.stands[side] || touching == 4, "{name}: {touching} corners touch the floor");
+        }
+    }
+}
+
+/// The same leg for a walker that does not know how it is solved.
+#[derive(Debug)]
+struct Plain(LegSolver);
+
+impl InverseKinematics for Plain {
+    fn solve(&self, target: &Target, given: &[f64], out: &mut Vec<Solution>) -> Result<()> {
+        self.0.solve(target, given, out)
+    }
+}
+
+/// Legs in general position are solved by eigenvalues. Newton's method then finds the same walk, up to the tolerance of the centre of mass.
+#[test]
+fn legs_that_are_solved_by_eigenvalues_follow_the_nearest_solution() {
+    // No axes meet, and none are parallel.
+    let tilted = |line: &str| match line {
+        knee if knee.contains("knee_joint") => knee.replace("0 1 0", "0.01 1 -0.02"),
+        ankle if ankle.contains("ankle_joint") => ankle.replace("0 1 0", "0.02 1 0.03"),
+        other => other.replace("axis xyz=\"1 0 0\"", "axis xyz=\"1 0.03 0.02\""),
+    };
+    let text: String = PLAIN.urdf().lines().map(tilted).collect();
+    let text = text.replace("xyz=\"0 0 0\"", "xyz=\"0.02 0.005 -0.01\"");
+    let robot = Robot::from_urdf(&text).unwrap();
+    let found = footing(&robot, NO_LINKS).unwrap();
+    let walker = found.walker(|chain| derived(chain).inspect(|leg| assert!(leg.uses_eigenvalues()))).unwrap();
+    let all = found.walker(|chain| Ok(Arc::new(Plain(derived(chain)?)))).unwrap();
+    let preview = walker.gait("preview").unwrap();
+    let [walk, other] = [&walker, &all].map(|walker| walk_by(walker, preview, (0.3, 0.1, Some(0.3))).unwrap());
+    assert_eq!(walk.schedule, other.schedule);
+    for (sample, (posture, same)) in walk.motion.postures.iter().zip(&other.motion.postures).enumerate() {
+        let off = posture.q.iter().zip(&same.q).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(off < 5e-6, "sample {sample}: {off}");
+        // Some samples are compared with all solutions.
+        for (side, foot) in [Side::Left, Side::Right].into_iter().zip(&walker.biped.feet).filter(|_| sample % 25 == 0) {
+            let torso_from_sole =
+                posture.world_from_torso.inv_mul(&walk.references[sample].world_from_soles[side as usize]);
+            let solutions = walker.legs.solutions(side, &torso_from_sole);
+            let away = |q: &Vec<f64>| {
+                q.iter().zip(&foot.joints).map(|(q, joint)| (q - posture.q[*joint]).abs()).fold(0.0, f64::max)
+            };
+            let nearest = solutions.iter().map(away).fold(f64::INFINITY, f64::min);
+            assert!(
+                solutions.len() >= 2 && nearest < 1e-11,
+                "sample {sample}: {} solutions, {nearest}",
+                solutions.len()
+            );
         }
     }
 }
