@@ -13,18 +13,18 @@ trap 'rm -rf "$work"' EXIT
 [ "$#" -gt 0 ] || set -- x86_64-unknown-linux-gnu aarch64-unknown-linux-gnu sdist
 
 python3 -m venv "$work"
-"$work/bin/pip" install --quiet --disable-pip-version-check "maturin>=1.9,<2" "ziglang==0.17.*"
+"$work/bin/pip" install --quiet --disable-pip-version-check "maturin>=1.9,<2" "ziglang==0.17.*" "deflate==0.9.*"
 # maturin finds zig by the Python on the path.
 export PATH=$work/bin:$PATH
 mkdir -p "$dist"
 
 wheel() {
-    local made="$work/$1"
-    maturin build --release --locked --zig --compatibility manylinux2014 --compression-level 9 --target "$1" --out "$made"
-    local size
-    size=$(stat --format %s "$made"/*.whl)
-    printf '%s: %d bytes\n' "$(basename "$made"/*.whl)" "$size"
-    mv "$made"/*.whl "$dist"
+    local made="$work/$1" name size
+    maturin build --release --locked --zig --compatibility manylinux2014 --target "$1" --out "$made"
+    name=$(basename "$made"/*.whl)
+    python repack.py "$made/$name" "$dist/$name"
+    size=$(stat --format %s "$dist/$name")
+    printf '%s: %d bytes\n' "$name" "$size"
     if [ "$size" -gt "$limit" ]; then
         echo "the wheel is larger than $limit bytes" >&2
         exit 1

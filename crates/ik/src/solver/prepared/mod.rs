@@ -114,6 +114,8 @@ impl Solver {
     /// # Errors
     /// [`crate::ErrorKind::BadValue`] for a wrong number of values, NaN or infinity, or a condition that does not hold
     /// ([`Program::conditions`]); [`crate::ErrorKind::Unsupported`] if the target is on a stratum that could not be derived.
+    // A crate that is optimised for speed compiles its own copy, also if this crate is optimised for size.
+    #[inline]
     pub fn solve_numbers(&self, target: &[f64]) -> Result<Vec<Solution>> {
         shaped!(self, shaped => shaped.solve(target))
     }
