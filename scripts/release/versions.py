@@ -51,7 +51,8 @@ def cut(text, version, date):
         return text
     if not changes:
         raise Refused(f"CHANGELOG.md: `{UNRELEASED}` is empty; there is nothing to release")
-    return head + f"{UNRELEASED}\n\n## [{version}] - {date}\n\n{changes}\n" + "".join("\n" + section for section in rest[1:2]) + "".join(rest[2:])
+    released = f"## [{version}] - {date}\n\n{changes}\n" + ("\n" if rest[1:] else "")
+    return head + f"{UNRELEASED}\n\n{released}" + "".join(rest[1:])
 
 
 def notes(text, version):
