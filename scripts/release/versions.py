@@ -51,7 +51,8 @@ def cut(text, version, date):
         return text
     if not changes:
         raise Refused(f"CHANGELOG.md: `{UNRELEASED}` is empty; there is nothing to release")
-    return head + f"{UNRELEASED}\n\n## [{version}] - {date}\n\n{changes}\n" + "".join("\n" + section for section in rest[1:2]) + "".join(rest[2:])
+    released = f"## [{version}] - {date}\n\n{changes}\n" + ("\n" if rest[1:] else "")
+    return head + f"{UNRELEASED}\n\n{released}" + "".join(rest[1:])
 
 
 def notes(text, version):
@@ -172,18 +173,23 @@ def prepare(folder, version, date):
 
 
 def licences(folder):
-    """The name, the licence and the licence texts of each crate in the program."""
+    """The name, the licence and the licence texts of each crate in the program. A text that several crates share is printed once."""
     def cargo(*arguments):
         return subprocess.run(["cargo", *arguments, "--locked"], cwd=folder, check=True, capture_output=True, text=True).stdout
 
     listed = cargo("tree", "--package", "groebot", "--edges", "normal", "--prefix", "none", "--format", "{p}")
     used = {tuple(line.split()[:2]) for line in listed.splitlines() if line}
+    printed = {}
     packages = json.loads(cargo("metadata", "--format-version", "1"))["packages"]
     for package in sorted(packages, key=lambda package: (package["name"], package["version"])):
         if package["source"] is None or (package["name"], "v" + package["version"]) not in used:
             continue
         files = sorted(path for path in Path(package["manifest_path"]).parent.iterdir() if re.match(r"(?i)(licen[sc]e|copying|copyright|notice|unlicense)", path.name) and path.is_file())
-        yield f"{package['name']} {package['version']}: {package['license']}\n" + "".join(f"\n{path.read_text(errors='replace').strip()}\n" for path in files)
+        own = f"{package['name']} {package['version']}"
+        texts = {path.name: path.read_text(errors="replace").strip() for path in files}
+        first = {name: printed.setdefault(text, own) for name, text in texts.items()}
+        shown = [f"{name}:\n{text}" if first[name] == own else f"{name}: as of {first[name]}" for name, text in texts.items()]
+        yield f"{own}: {package['license']}\n" + "".join(f"\n{text}\n" for text in shown)
 
 
 def main(command, *arguments):

@@ -63,7 +63,7 @@ fn the_program_file_may_be_given_itself() {
 #[test]
 fn text_shows_joints_units_and_the_choice() {
     let answer = json("60,150", &[]);
-    assert_eq!(answer["format"], 1);
+    assert_eq!(answer["format"], 2);
     let text = succeed(&["solve", leg().path(), "--target", "60,150", "--target", "0,0"]);
     assert!(text.contains("px = 60 mm, pz = 150 mm: 2 solutions") && text.contains("HipPitch"), "{text}");
     assert!(text.contains("px = 0 mm, pz = 0 mm: unreachable: no solution"), "{text}");
