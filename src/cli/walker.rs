@@ -151,7 +151,7 @@ impl Described {
     /// # Errors
     /// [`ErrorKind::UnknownName`] for a robot of groebot that does not walk; those of [`Footing::find`],
     /// [`Footing::walker`] and [`Options::derive`].
-    pub fn walker(self, outline: Outline, soles: &SoleArguments, watch: &Watch) -> Result<Named> {
+    pub(super) fn walker(self, outline: Outline, soles: &SoleArguments, watch: &Watch) -> Result<Named> {
         let Described { robot, meshes, source } = self;
         let file = match source {
             Source::Name(name) => {
