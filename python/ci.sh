@@ -28,8 +28,8 @@ size=$(stat --format %s "$wheel")
 printf '%s: %d bytes\n' "$(basename "$wheel")" "$size"
 if [ "$profile" = release ]; then
     export GROEBOT_RELEASE=1
-    if [ "$size" -gt 7000000 ]; then
-        echo "the wheel is larger than 7 MB"
+    if [ "$size" -gt 10000000 ]; then
+        echo "the wheel is larger than 10 MB"
         exit 1
     fi
 fi
