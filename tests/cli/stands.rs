@@ -105,7 +105,7 @@ fn a_walk_that_falls_is_repaired() {
     assert!(seconds(&repaired) > seconds(&fallen));
     for (file, code) in [(&fallen, 5), (&repaired, 0)] {
         let report = reported(&[text(file), "--model", text(&model)], code).unwrap();
-        assert_eq!(report["run"]["fell"].is_null(), code == 0);
+        assert_eq!(report["run"]["fall_time"].is_null(), code == 0);
     }
 }
 
