@@ -226,7 +226,7 @@ impl Trees {
         is_new
     }
 
-    /// The link that stands for the tree of `link`. The links on the way point to it from now on, so that long chains stay fast.
+    /// The link that stands for the tree of `link`. The links between them point to it afterwards, so that long chains stay fast.
     fn root(&mut self, link: &str) -> String {
         let mut passed = vec![link.to_owned()];
         while let Some(next) = passed.last().and_then(|link| self.0.get(link)) {
