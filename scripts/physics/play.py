@@ -114,12 +114,16 @@ class Robot:
         units = mass * GRAVITY * length, mass * math.sqrt(GRAVITY) * length**1.5, mass * length**2
         stiffness, damping, self.armature = (factor * unit for factor, unit in zip(servo or SERVO, units))
         self.stiffness, self.damping = numpy.full(model.nu, stiffness), numpy.full(model.nu, damping)
-        self.described = numpy.zeros(model.nu, dtype=bool)
+        self.described, self.unused = numpy.zeros(model.nu, dtype=bool), None
         if servo is None:
             weaken = numpy.where(model.actuator_forcelimited, model.actuator_forcerange[:, 1] / (LINEAR * stiffness), 1.0).clip(max=1.0)
             self.stiffness, self.damping = weaken * stiffness, weaken * damping
             if model.nuser_actuator > 1:
                 self.described = model.actuator_user[:, 1] == 1.0
+                greatest = model.actuator_gainprm[self.described, 0].max(initial=0.0)
+                # No joint could hold the robot upright: gains of learned policies.
+                if self.described.any() and greatest < units[0]:
+                    self.described[:], self.unused = False, float(greatest)
         for body in range(1, model.nbody):
             if model.body_mass[body] > 0.01 * mass and max(model.body_inertia[body]) < 1e-6 * mass * length**2:
                 model.body_inertia[body] = POINT * model.body_mass[body] * length**2
@@ -422,7 +426,8 @@ def main():
     table, fell = play(robot, filming(given.frames) if given.frames else None)
     table.write(given.answer, remarks)
     told = {
-        "mujoco": mujoco.__version__, "fell": fell, "motors": robot.motors(), "mass": robot.weight / GRAVITY, "points": robot.points,
+        "mujoco": mujoco.__version__, "fell": fell, "motors": robot.motors(), "unused_stiffness": robot.unused, "mass": robot.weight / GRAVITY,
+        "points": robot.points,
     }
     print(json.dumps(told))
 

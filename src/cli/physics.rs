@@ -71,6 +71,8 @@ pub struct ScriptOutput {
     pub fell: Option<f64>,
     /// The motors.
     pub motors: Vec<Motor>,
+    /// The greatest stiffness in a description whose gains are not used, because none could hold the robot upright \[N m/rad\].
+    pub unused_stiffness: Option<f64>,
     /// The mass of the robot \[kg\].
     pub mass: f64,
     /// The bodies that are described as points, which get moments of inertia.

@@ -390,7 +390,12 @@ fn motors(result: &ScriptOutput) -> String {
         0 => String::new(),
         count => format!("; gains of {count} of {} from the description", result.motors.len()),
     };
-    format!("{points}  motors          {stiffness} N m/rad, {damping} N m s/rad, {armature} kg m^2{described}\n")
+    let unused = result.unused_stiffness.map_or_else(String::new, |greatest| {
+        format!("  gains           of the description are not used: at most {greatest:.1} N m/rad do not hold the robot upright\n")
+    });
+    format!(
+        "{points}  motors          {stiffness} N m/rad, {damping} N m s/rad, {armature} kg m^2{described}\n{unused}"
+    )
 }
 
 fn bad(text: &str) -> Error {
