@@ -23,6 +23,10 @@ if [ -z "$wheel" ]; then
     RUSTC_WORKSPACE_WRAPPER=clippy-driver "$work/build/bin/maturin" build \
         --locked --profile "$profile" --compression-level "$([ "$profile" = release ] && echo 9 || echo 1)" --out "$work/wheels" -- -D warnings
     wheel=$(echo "$work"/wheels/*.whl)
+    # The source distribution must have each file that its manifests name. (Its build takes as long as that of the wheel.)
+    "$work/build/bin/maturin" sdist --out "$work/sdist"
+    tar xzf "$work"/sdist/*.tar.gz -C "$work/sdist"
+    (cd "$work"/sdist/groebot-*/python && cargo fetch --locked --quiet --target "$(rustc -vV | sed -n 's/^host: //p')")
 fi
 size=$(stat --format %s "$wheel")
 printf '%s: %d bytes\n' "$(basename "$wheel")" "$size"
