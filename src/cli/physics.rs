@@ -99,6 +99,42 @@ impl ScriptOutput {
     pub fn stiffness(&self, joint: &str, mass: f64) -> f64 {
         self.motors.iter().find(|motor| motor.joint == joint).map_or(f64::INFINITY, |motor| motor.stiffness / mass)
     }
+
+    /// Whether the robot falls, with its mass and the version of MuJoCo.
+    pub fn verdict(&self) -> String {
+        let ScriptOutput { mujoco, mass, fell, .. } = self;
+        let fate = fell.map_or("the robot does not fall".to_owned(), |time| format!("the robot falls at {time:.2} s"));
+        format!("{fate} ({mass:.2} kg, MuJoCo {mujoco})")
+    }
+
+    /// The lines of the report about the motors.
+    pub fn motors_text(&self) -> String {
+        let points = if self.points.is_empty() {
+            String::new()
+        } else {
+            format!("  moments         assumed of {}, which is described as a point\n", self.points.join(", "))
+        };
+        let range = |of: fn(&Motor) -> f64, digits: usize| {
+            let (low, high) = self
+                .motors
+                .iter()
+                .map(of)
+                .fold((f64::INFINITY, 0.0), |(low, high), value| (value.min(low), value.max(high)));
+            if low < high { format!("{low:.digits$} to {high:.digits$}") } else { format!("{high:.digits$}") }
+        };
+        let (stiffness, damping) = (range(|motor| motor.stiffness, 1), range(|motor| motor.damping, 3));
+        let armature = range(|motor| motor.armature, 4);
+        let described = match self.motors.iter().filter(|motor| motor.described).count() {
+            0 => String::new(),
+            count => format!("; gains of {count} of {} from the description", self.motors.len()),
+        };
+        let unused = self.unused_stiffness.map_or_else(String::new, |greatest| {
+        format!("  gains           of the description are not used: at most {greatest:.1} N m/rad do not hold the robot upright\n")
+    });
+        format!(
+            "{points}  motors          {stiffness} N m/rad, {damping} N m s/rad, {armature} kg m^2{described}\n{unused}"
+        )
+    }
 }
 
 /// A folder with script, robot and walk.

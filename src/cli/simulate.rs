@@ -9,7 +9,7 @@ use super::files::is_json;
 use super::json::FORMAT;
 use super::moving::{self, Motion};
 use super::output::{Force, Kind, Output};
-use super::physics::{Case, Motor, Push, ScriptOutput, Stage};
+use super::physics::{Case, Push, ScriptOutput, Stage};
 use super::progress::{Limits, Session, seconds};
 use super::walker::{self, Described, Named, Shod, SoleArguments};
 use super::{Halt, Outcome, console};
@@ -158,7 +158,12 @@ pub fn run(arguments: &Arguments) -> Outcome {
     } else {
         let usage = usage.map(|usage| usage.to_string()).unwrap_or_default();
         let law = if feedback.is_some() { "with feedback" } else { "in open loop" };
-        console::print(&format!("{}: {law}, {}\n{}{usage}{compared}", plan.robot, verdict(&result), motors(&result)))?;
+        console::print(&format!(
+            "{}: {law}, {}\n{}{usage}{compared}",
+            plan.robot,
+            result.verdict(),
+            result.motors_text()
+        ))?;
     }
     if result.fell.is_some() { Err(Halt::Fell) } else { Ok(()) }
 }
@@ -361,40 +366,6 @@ fn row(Run { case, result, compared }: &Run) -> String {
         1e3 * compared.lift,
         1e3 * compared.zmp[1],
         1e3 * deviation
-    )
-}
-
-fn verdict(result: &ScriptOutput) -> String {
-    let ScriptOutput { mujoco, mass, fell, .. } = result;
-    let fate = fell.map_or("the robot does not fall".to_owned(), |time| format!("the robot falls at {time:.2} s"));
-    format!("{fate} ({mass:.2} kg, MuJoCo {mujoco})")
-}
-
-fn motors(result: &ScriptOutput) -> String {
-    let points = if result.points.is_empty() {
-        String::new()
-    } else {
-        format!("  moments         assumed of {}, which is described as a point\n", result.points.join(", "))
-    };
-    let range = |of: fn(&Motor) -> f64, digits: usize| {
-        let (low, high) = result
-            .motors
-            .iter()
-            .map(of)
-            .fold((f64::INFINITY, 0.0), |(low, high), value| (value.min(low), value.max(high)));
-        if low < high { format!("{low:.digits$} to {high:.digits$}") } else { format!("{high:.digits$}") }
-    };
-    let (stiffness, damping) = (range(|motor| motor.stiffness, 1), range(|motor| motor.damping, 3));
-    let armature = range(|motor| motor.armature, 4);
-    let described = match result.motors.iter().filter(|motor| motor.described).count() {
-        0 => String::new(),
-        count => format!("; gains of {count} of {} from the description", result.motors.len()),
-    };
-    let unused = result.unused_stiffness.map_or_else(String::new, |greatest| {
-        format!("  gains           of the description are not used: at most {greatest:.1} N m/rad do not hold the robot upright\n")
-    });
-    format!(
-        "{points}  motors          {stiffness} N m/rad, {damping} N m s/rad, {armature} kg m^2{described}\n{unused}"
     )
 }
 

@@ -118,6 +118,26 @@ fn nao_stands() {
     assert!(number(&compared["tilt"]) < 3f64.to_radians());
 }
 
+/// With 1 N m/rad at all joints, less than the m g l of NAO (10 N m/rad), the described gains are not used; with 400 N m/rad they are.
+#[test]
+fn described_gains_are_used_where_they_can_hold_the_robot() {
+    let (folder, walk) = walked(&["nao", "--steps", "2"]);
+    let plain = succeed(&["export", "nao", "--to", "mjcf"]);
+    for (stiffness, is_used) in [(1.0, false), (400.0, true)] {
+        let model = folder.path().join("described.xml");
+        let described = plain.replace("kp=\"100\"", &format!("kp=\"{stiffness}\"")).replace(" 0\"/>", " 1\"/>");
+        assert_eq!(described.matches(&format!("kp=\"{stiffness}\"")).count(), 24);
+        fs::write(&model, described).unwrap();
+        let Some(reported) = reported(&[&walk, "--model", text(&model)], 0) else { return };
+        let run = &reported["run"];
+        assert!(run["fall_time"].is_null());
+        assert_eq!(run["unused_stiffness"].as_f64(), (!is_used).then_some(stiffness));
+        let motors = run["motors"].as_array().unwrap();
+        assert!(motors.iter().all(|motor| motor["described"] == is_used));
+        assert!(motors.iter().all(|motor| is_used == (number(&motor["stiffness"]) == stiffness)));
+    }
+}
+
 /// RH0 6.2 with two steps. The ZMP from contact forces is within 8 mm rms of the plan (of 30 mm that RA_AS permits). The roll error of a hip equals the planned
 /// torque divided by the stiffness within 10 %.
 #[test]
