@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use groebot::solver::MAX_JOINTS;
 
-use crate::kernel::{Answer, Kernel};
+use crate::kernel::{Kernel, add};
 use crate::sink::{Sink, Status};
 use crate::solution::Solution;
 use crate::targets::Targets;
@@ -71,12 +71,8 @@ fn keep_member(
     targets.row(target, &mut numbers);
     let nearest = kernel.nearest_to(&numbers, near, limits.unwrap_or(&endless)).ok().flatten();
     sink.taken = begun;
-    if let Some(nearest) = nearest
-        && let Some(rows) = sink.more(1)
-    {
-        let Answer { q, residual, branch, free, .. } = (&nearest).into();
-        rows.q.copy_from_slice(q);
-        (rows.residual[0], rows.branch[0], rows.free[0]) = (residual, branch as i32, free);
+    if let Some(nearest) = nearest {
+        add(sink, (&nearest).into());
     }
 }
 
@@ -109,35 +105,55 @@ fn keep_within(
         targets.row(target, &mut numbers);
         if let Ok(found) = kernel.solve_within(&numbers, limits) {
             sink.taken = begun;
-            for answer in &found {
-                let Some(rows) = sink.more(1) else { return };
-                let Answer { q, residual, branch, free, .. } = answer.into();
-                rows.q.copy_from_slice(q);
-                (rows.residual[0], rows.branch[0], rows.free[0]) = (residual, branch as i32, free);
-            }
+            found.iter().for_each(|solution| add(sink, solution.into()));
         }
     }
 }
 
 /// Keeps the solution that is nearest to a reference after whole turns within limits, with its nearest turns. Among equal ones it is the first.
 fn keep_nearest(turns: &[bool], sink: &mut Sink<'_>, begun: usize, reference: &[f64], limits: Option<&[[f64; 2]]>) {
-    let (mut best, mut least) = ([0.0; MAX_JOINTS], f64::INFINITY);
-    let (mut q, mut nearest) = ([0.0; MAX_JOINTS], None);
-    let joints = turns.len();
-    for answer in begun..sink.taken {
-        if !moved(turns, sink.row(answer), reference, limits, &mut q[..joints]) {
-            continue;
-        }
-        let distance: f64 = q.iter().zip(reference).map(|(a, b)| (a - b) * (a - b)).sum();
-        if distance < least {
-            (least, best, nearest) = (distance, q, Some(answer));
-        }
-    }
-    if let Some(answer) = nearest {
+    let mut nearest = Nearest::to(turns, reference, limits);
+    (begun..sink.taken).for_each(|answer| nearest.consider(answer, sink.row(answer)));
+    let found = nearest.found();
+    if let Some((answer, q)) = found {
         sink.put(answer, begun);
-        sink.row_mut(begun).copy_from_slice(&best[..joints]);
+        sink.row_mut(begun).copy_from_slice(q);
     }
-    sink.taken = begun + usize::from(nearest.is_some());
+    sink.taken = begun + usize::from(found.is_some());
+}
+
+/// Search of the solution that is nearest to a reference after whole turns within limits. Among equal ones it is the first.
+pub struct Nearest<'a> {
+    turns: &'a [bool],
+    reference: &'a [f64],
+    limits: Option<&'a [[f64; 2]]>,
+    /// The squared distance, the index and the joint values of the nearest so far.
+    least: f64,
+    index: Option<usize>,
+    best: [f64; MAX_JOINTS],
+}
+
+impl<'a> Nearest<'a> {
+    pub fn to(turns: &'a [bool], reference: &'a [f64], limits: Option<&'a [[f64; 2]]>) -> Self {
+        Nearest { turns, reference, limits, least: f64::INFINITY, index: None, best: [0.0; MAX_JOINTS] }
+    }
+
+    /// Considers the solution with this index.
+    pub fn consider(&mut self, index: usize, q: &[f64]) {
+        let mut near = [0.0; MAX_JOINTS];
+        if !moved(self.turns, q, self.reference, self.limits, &mut near[..self.turns.len()]) {
+            return;
+        }
+        let distance: f64 = near.iter().zip(self.reference).map(|(a, b)| (a - b) * (a - b)).sum();
+        if distance < self.least {
+            (self.least, self.best, self.index) = (distance, near, Some(index));
+        }
+    }
+
+    /// The index of the nearest solution, and its joint values after whole turns.
+    pub fn found(&self) -> Option<(usize, &[f64])> {
+        self.index.map(|index| (index, &self.best[..self.turns.len()]))
+    }
 }
 
 /// Moves each solution by whole turns to its nearest values to `q0` within limits, and sorts the solutions by their distance to `q0`.
@@ -153,7 +169,7 @@ pub fn nearest_first(turns: &[bool], q0: &[f64], limits: Option<&[[f64; 2]]>, so
 }
 
 /// Writes `q` with each angle moved by whole turns into its limits, as near to `reference` as possible. Returns false when a joint cannot be within its limits.
-fn moved(turns: &[bool], q: &[f64], reference: &[f64], limits: Option<&[[f64; 2]]>, out: &mut [f64]) -> bool {
+pub fn moved(turns: &[bool], q: &[f64], reference: &[f64], limits: Option<&[[f64; 2]]>, out: &mut [f64]) -> bool {
     out.iter_mut().enumerate().all(|(joint, out)| {
         let [low, high] = limits.map_or([f64::NEG_INFINITY, f64::INFINITY], |limits| limits[joint]);
         let (low, high, value) = (low - SLACK, high + SLACK, q[joint]);

@@ -1,8 +1,6 @@
 //! The generated solvers in the wheel, those of `derivations/`. Their results are bitwise identical to those of the interpreted programs. Main type: [`Known`].
 
-use std::sync::Arc;
-
-use crate::kernel::{Kernel, Printed};
+use crate::compiled::Code;
 
 /// A solver in the wheel.
 pub struct Known {
@@ -12,13 +10,8 @@ pub struct Known {
     pub chain: &'static str,
     /// The program, as JSON.
     pub program: &'static str,
-    kernel: fn() -> Arc<dyn Kernel>,
-}
-
-impl Known {
-    pub fn kernel(&self) -> Arc<dyn Kernel> {
-        (self.kernel)()
-    }
+    /// Its generated code.
+    pub code: fn() -> Box<dyn Code>,
 }
 
 macro_rules! known {
@@ -28,7 +21,7 @@ macro_rules! known {
             name: stringify!($name),
             chain: include_str!(concat!("../../derivations/", stringify!($name), "/0_chain.toml")),
             program: include_str!(concat!("../../derivations/", stringify!($name), "/5_program.json")),
-            kernel: || Arc::new(Printed::new($name::Solver)),
+            code: || Box::new($name::Solver),
         }),+];
     };
 }

@@ -6,6 +6,7 @@ mod batch;
 mod choose;
 mod closest;
 mod command;
+mod compiled;
 mod derive;
 mod dynamics;
 mod errors;

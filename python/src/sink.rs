@@ -1,5 +1,7 @@
 //! Output rows for the solutions of targets. Main type: [`Sink`].
 
+use crate::kernel::Answer;
+
 /// Reason why a target has no solutions. The numbers are those of `groebot.Status`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
@@ -101,6 +103,13 @@ impl<'a> Sink<'a> {
         let is_solved = count > 0 && why != Status::Unsettled;
         self.status[self.ended] = if is_solved { Status::Solved as u8 } else { why as u8 };
         self.ended += 1;
+    }
+
+    /// The solution of a row. It is not marked as chosen.
+    pub fn answer(&self, row: usize) -> Answer<'_> {
+        let Rows { residual, branch, free, .. } = &self.rows;
+        let (residual, branch, free) = (residual[row], branch[row] as usize, free[row]);
+        Answer { q: self.row(row), residual, branch, free, chosen: false, settled: true }
     }
 
     pub fn row(&self, answer: usize) -> &[f64] {

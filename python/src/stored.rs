@@ -14,6 +14,7 @@ use groebot::{Error, ErrorKind, Result, Watch};
 use serde_json::{Value, json};
 
 use crate::arrays::TargetShape;
+use crate::compiled::Compiled;
 use crate::kernel::{Interpreted, Kernel};
 use crate::known;
 use crate::origin::{CERTIFICATE, Origin};
@@ -50,9 +51,9 @@ impl Stored {
     fn new(program: Program, chain: Option<Chain>, origin: Option<Origin>, certificate: Option<String>) -> Self {
         let printed = known::by_name(&program.name)
             .filter(|known| Program::from_json(known.program).is_ok_and(|printed| printed == program));
-        let kernel = match printed {
-            Some(known) => known.kernel(),
-            None => Arc::new(Interpreted::new(&program)) as Arc<dyn Kernel>,
+        let kernel: Arc<dyn Kernel> = match printed {
+            Some(known) => Arc::new(Compiled::new((known.code)(), &program)),
+            None => Arc::new(Interpreted::new(&program)),
         };
         let target_shape = target_shape(&program);
         let is_printed = printed.is_some();

@@ -358,19 +358,24 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         }
     }
 
-    /// Whether two candidates differ in at least one angle.
     #[inline(always)]
     fn are_apart(&self, k: usize, other: usize) -> bool {
-        let at = self.at.as_ref();
-        let cosine = |place: usize| at[place].as_ref()[k] * at[place].as_ref()[other];
-        for &i in self.problem.facts().last_first {
-            let Joint::Angle([c, s]) = self.problem.facts().joints[i] else { continue };
-            if cosine(c) + cosine(s) < FAR_APART {
-                return true;
-            }
-        }
-        false
+        are_apart::<M>(&self.problem.facts(), &self.at, k, other)
     }
+}
+
+/// Whether two candidates differ in at least one angle.
+#[inline(always)]
+pub(crate) fn are_apart<M: Mechanism>(facts: &Facts<'_>, at: &Places<M, Abreast<M>>, k: usize, other: usize) -> bool {
+    let at = at.as_ref();
+    let cosine = |place: usize| at[place].as_ref()[k] * at[place].as_ref()[other];
+    for &i in facts.last_first {
+        let Joint::Angle([c, s]) = facts.joints[i] else { continue };
+        if cosine(c) + cosine(s) < FAR_APART {
+            return true;
+        }
+    }
+    false
 }
 
 /// A function of its own, so that the compiler knows that the parameters do not change.

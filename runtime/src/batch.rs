@@ -192,14 +192,14 @@ fn solve_into<M: Mechanism, A: Answer<M>>(mechanism: &M, target: &Inputs<M>, roo
 #[repr(C, align(64))]
 pub(crate) struct Bundle<M: Mechanism, const W: usize> {
     at: Abreast<M, Places<M, Lanes<W>>>,
-    q: Abreast<M, Joints<M, Lanes<W>>>,
-    residual: Abreast<M, Lanes<W>>,
+    pub q: Abreast<M, Joints<M, Lanes<W>>>,
+    pub residual: Abreast<M, Lanes<W>>,
     relative: Abreast<M, Lanes<W>>,
     /// Which targets do not have this candidate.
-    dead: Abreast<M, Mask<W>>,
+    pub dead: Abreast<M, Mask<W>>,
     /// Which targets are not ordinary: a case of a stratum may run, roots are close, a candidate has a large residual, or two candidates are close.
-    doubt: Mask<W>,
-    branch: Abreast<M, usize>,
+    pub doubt: Mask<W>,
+    pub branch: Abreast<M, usize>,
     count: usize,
 }
 
@@ -254,7 +254,7 @@ impl<M: Mechanism, const W: usize> Candidates<Lanes<W>, M> for Bundle<M, W> {
 }
 
 impl<M: Mechanism, const W: usize> Bundle<M, W> {
-    fn empty(facts: &Facts<'_>) -> Self {
+    pub fn empty(facts: &Facts<'_>) -> Self {
         let (none, room) = (Lanes([0.0; W]), facts.candidates);
         Bundle {
             at: Array::by(room, |_| Array::by(facts.places, |_| none)),
@@ -270,7 +270,7 @@ impl<M: Mechanism, const W: usize> Bundle<M, W> {
 
     /// Finds the candidates of 1 to `W` targets, and their angles if `wants_angles`.
     #[inline(always)]
-    fn find(&mut self, mechanism: &M, facts: &Facts<'_>, targets: &[Inputs<M>], wants_angles: bool) {
+    pub fn find(&mut self, mechanism: &M, facts: &Facts<'_>, targets: &[Inputs<M>], wants_angles: bool) {
         let number = |i: usize, lane: usize| targets[lane.min(targets.len() - 1)].as_ref()[i];
         let mut target: Inputs<M, Lanes<W>> =
             Array::by(facts.inputs, |i| Lanes(core::array::from_fn(|lane| number(i, lane))));

@@ -36,6 +36,7 @@ mod nearest;
 mod newton;
 pub mod number;
 mod order;
+pub mod ordinary;
 mod placement;
 mod problem;
 mod quartic;

@@ -2,6 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use groebot_runtime::ordinary::{Candidate, Ordinary, Receiver};
 use groebot_runtime::{
     Candidates, Error, Facts, Fixed, Found, Joint, Mechanism, Number, Pairs, Reached, Solution, Solve, With,
 };
@@ -124,6 +125,48 @@ fn pairs_and_batches_are_single_solutions() {
             }
         }
     }
+}
+
+/// By target, its solutions if it is ordinary.
+#[derive(Default)]
+struct Collected(Vec<Option<Vec<(usize, [f64; 2], f64)>>>);
+
+impl Receiver<Arm> for Collected {
+    fn take(&mut self, target: usize, candidates: impl ExactSizeIterator<Item = Candidate<Arm>>) {
+        assert_eq!(self.0.len(), target);
+        let solution = |one: Candidate<Arm>| one.is_real.then_some((one.branch, one.q, one.residual));
+        self.0.push(Some(candidates.filter_map(solution).collect()));
+    }
+
+    fn leave(&mut self, target: usize) {
+        assert_eq!(self.0.len(), target);
+        self.0.push(None);
+    }
+}
+
+#[test]
+fn ordinary_targets_have_the_solutions_of_all_targets() {
+    let mut next = super::random();
+    let mut targets: Vec<[f64; 2]> = (0..3000).map(|_| [3.2 * (next() - 0.5), 3.2 * (next() - 0.5)]).collect();
+    // From the edge of the reach inwards: the two solutions approach each other.
+    let depths = (0..160).map(|k| 10_f64.powf(-0.1 * f64::from(k)));
+    targets.extend(depths.map(|depth| [1.5 - depth, 0.0]));
+    targets.extend([[1.5, 0.0], [f64::NAN, 0.0], [0.0, 0.0]]);
+    let (mut together, mut ordinary) = (Collected::default(), 0);
+    Arm.solve_ordinary_batch(&targets, &mut together);
+    assert_eq!(together.0.len(), targets.len());
+    for (target, found) in targets.iter().zip(together.0) {
+        let mut alone = Collected::default();
+        Arm.solve_ordinary(target, &mut alone);
+        assert_eq!(alone.0, std::slice::from_ref(&found), "{target:?}");
+        if let Some(found) = found {
+            let all = solutions(*target).iter().map(|one| (one.branch, one.q, one.residual)).collect::<Vec<_>>();
+            assert_eq!(found, all, "{target:?}");
+            ordinary += 1;
+        }
+    }
+    // All but those at the edge, where solutions cannot be told apart, and the last three.
+    assert!(ordinary > 3000 && ordinary < targets.len() - 3, "{ordinary}");
 }
 
 #[test]
