@@ -14,13 +14,15 @@ trap 'rm -rf "$work"' EXIT
 
 python3 -m venv "$work"
 "$work/bin/pip" install --quiet --disable-pip-version-check "maturin>=1.9,<2" "ziglang==0.17.*" "deflate==0.9.*"
-# maturin finds zig by the Python on the path.
+# zig-lld.sh finds maturin and zig by the Python on the path.
 export PATH=$work/bin:$PATH
 mkdir -p "$dist"
 
 wheel() {
-    local made="$work/$1" name size
-    maturin build --release --locked --zig --compatibility manylinux2014 --target "$1" --out "$made"
+    local made="$work/$1" linker name size
+    linker=CARGO_TARGET_$(tr a-z- A-Z_ <<< "$1")_LINKER
+    env "$linker=$PWD/zig-lld.sh" ZIG_TARGET="${1/-unknown/}.2.17" \
+        maturin build --release --locked --compatibility manylinux2014 --target "$1" --out "$made"
     name=$(basename "$made"/*.whl)
     python repack.py "$made/$name" "$dist/$name"
     size=$(stat --format %s "$dist/$name")

@@ -52,6 +52,12 @@ pub struct Place {
 /// The error type of every fallible function of groebot's crates.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub struct Error {
+    // In a box, so that a `Result` is small.
+    content: Box<Content>,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Content {
     kind: ErrorKind,
     place: Place,
     message: String,
@@ -63,13 +69,13 @@ pub type Result<T> = std::result::Result<T, Error>;
 impl Error {
     /// Builds an error of `kind`. The message describes the error and the allowed values.
     pub fn new(kind: ErrorKind, message: impl Into<String>) -> Self {
-        Error { kind, place: Place::default(), message: message.into() }
+        Error { content: Box::new(Content { kind, place: Place::default(), message: message.into() }) }
     }
 
     /// Adds the line number (from 1), unless the error already has one.
     #[must_use]
     pub fn at_line(mut self, line: usize) -> Self {
-        self.place.line.get_or_insert(line);
+        self.content.place.line.get_or_insert(line);
         self
     }
 
@@ -77,37 +83,37 @@ impl Error {
     #[must_use]
     pub fn in_file(mut self, file: &Path) -> Self {
         let file = if file == Path::new("-") { Path::new("<stdin>") } else { file };
-        self.place.file.get_or_insert_with(|| file.to_owned());
+        self.content.place.file.get_or_insert_with(|| file.to_owned());
         self
     }
 
     /// Puts `context` before the message.
     #[must_use]
     pub fn with_context(mut self, context: impl fmt::Display) -> Self {
-        self.message = format!("{context}: {}", self.message);
+        self.content.message = format!("{context}: {}", self.content.message);
         self
     }
 
     /// Puts `advice` after the message.
     #[must_use]
     pub fn with_advice(mut self, advice: impl fmt::Display) -> Self {
-        self.message = format!("{}; {advice}", self.message);
+        self.content.message = format!("{}; {advice}", self.content.message);
         self
     }
 
     /// The kind of the error.
     pub fn kind(&self) -> ErrorKind {
-        self.kind
+        self.content.kind
     }
 
     /// The location of the error.
     pub fn place(&self) -> &Place {
-        &self.place
+        &self.content.place
     }
 
     /// The message without the location.
     pub fn message(&self) -> &str {
-        &self.message
+        &self.content.message
     }
 
     /// Builds an [`ErrorKind::Io`] error about `path`.
@@ -118,12 +124,12 @@ impl Error {
 
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Some(file) = &self.place.file {
+        if let Some(file) = &self.content.place.file {
             write!(f, "{}: ", escape::line(&file.to_string_lossy()))?;
         }
-        if let Some(line) = self.place.line {
+        if let Some(line) = self.content.place.line {
             write!(f, "line {line}: ")?;
         }
-        f.write_str(&escape::message(&self.message))
+        f.write_str(&escape::message(&self.content.message))
     }
 }
