@@ -175,6 +175,17 @@ fn described_gains_are_used_where_they_can_hold_the_robot() {
         let motors = run["motors"].as_array().unwrap();
         assert!(motors.iter().all(|motor| motor["described"] == is_used));
         assert!(motors.iter().all(|motor| is_used == (number(&motor["stiffness"]) == stiffness)));
+        // `--verify` reports it too.
+        let out = folder.path().join("verified.csv");
+        let verified =
+            with_python(&["walk", text(&model), "--steps", "2", "--verify", "--json", "-o", text(&out)], None);
+        assert_eq!(verified.code, 0, "{}", verified.err);
+        let report: Value = serde_json::from_str(&verified.out).unwrap();
+        let notes: Vec<&str> = report["notes"].as_array().unwrap().iter().map(|note| note.as_str().unwrap()).collect();
+        let unused =
+            "simulated: the gains of the description are not used: at most 1.0 N m/rad do not hold the robot upright";
+        assert!(notes.contains(&"simulated: the robot stands"), "{notes:?}");
+        assert_eq!(notes.contains(&unused), !is_used, "{notes:?}");
     }
 }
 
