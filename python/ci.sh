@@ -49,7 +49,7 @@ oldest/bin/groebot --version
 oldest/bin/pip install --quiet --disable-pip-version-check --no-compile pytest hypothesis "scipy<1.15"
 oldest/bin/pytest --quiet -rs "$here"/tests/test_{batch,input}.py
 
-environment newest "${wheel}[dask,notebooks]" "numpy>=2" pytest hypothesis scipy mypy pyright
+environment newest "${wheel}[dask,notebooks]" "numpy>=2" pytest hypothesis scipy mypy pyright "deflate==0.9.*"
 GROEBOT_REQUIRE_TOOLS=1 newest/bin/pytest --quiet -rs --durations=10 "$here/tests"
 newest/bin/mypy --config-file "$here/pyproject.toml" --package groebot
 newest/bin/mypy --config-file "$here/pyproject.toml" "$here/examples"

@@ -107,6 +107,14 @@ impl ScriptOutput {
         format!("{fate} ({mass:.2} kg, MuJoCo {mujoco})")
     }
 
+    /// Reports that the gains of the description are not used; `None` where they are, or where there are none.
+    pub fn unused_gains(&self) -> Option<String> {
+        let text = |greatest: f64| {
+            format!("of the description are not used: at most {greatest:.1} N m/rad do not hold the robot upright")
+        };
+        self.unused_stiffness.map(text)
+    }
+
     /// The lines of the report about the motors.
     pub fn motors_text(&self) -> String {
         let points = if self.points.is_empty() {
@@ -128,9 +136,7 @@ impl ScriptOutput {
             0 => String::new(),
             count => format!("; gains of {count} of {} from the description", self.motors.len()),
         };
-        let unused = self.unused_stiffness.map_or_else(String::new, |greatest| {
-        format!("  gains           of the description are not used: at most {greatest:.1} N m/rad do not hold the robot upright\n")
-    });
+        let unused = self.unused_gains().map_or_else(String::new, |text| format!("  gains           {text}\n"));
         format!(
             "{points}  motors          {stiffness} N m/rad, {damping} N m s/rad, {armature} kg m^2{described}\n{unused}"
         )

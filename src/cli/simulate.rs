@@ -341,14 +341,14 @@ fn report_runs(runs: &[Run], notes: &[String], as_json: bool) -> Outcome {
     } else {
         let rows: String = runs.iter().map(row).collect();
         console::print(&format!(
-            "roll_deg,pitch_deg,friction,mass,gain,latency_s,fell_s,off_mm,turn_off_deg,tilt_deg,landings,planned_landings,lift_mm,zmp_rms_mm,deviation_mrad\n{rows}"
+            "roll_deg,pitch_deg,friction,mass,gain,latency_s,fall_time_s,off_mm,turn_off_deg,tilt_deg,landings,planned_landings,lift_mm,zmp_rms_mm,deviation_mrad\n{rows}"
         ))?;
     }
     if runs.iter().any(|run| run.result.fell.is_some()) { Err(Halt::Fell) } else { Ok(()) }
 }
 
 fn row(Run { case, result, compared }: &Run) -> String {
-    let fell = result.fell.map_or("stands".to_owned(), |time| format!("{time:.2}"));
+    let fell = result.fell.map_or_else(String::new, |time| format!("{time:.2}"));
     let deviation = compared.joints.iter().map(|joint| joint.greatest.abs()).fold(0.0, f64::max);
     format!(
         "{},{},{},{},{},{},{fell},{:.0},{:.1},{:.1},{},{},{:.1},{:.1},{:.1}\n",

@@ -1,7 +1,7 @@
 //! `--verify` and `--repair`: a plan is simulated before anything is written.
 
 use super::feedback::Feedback;
-use super::physics::{Case, Stage};
+use super::physics::{Case, ScriptOutput, Stage};
 use super::walker::Named;
 use super::{Halt, console};
 use crate::{ErrorKind, Result, Watch};
@@ -45,8 +45,11 @@ impl Verification {
             return Ok(Verified { plan: first, notes: Vec::new() });
         }
         let Some(first_walk) = walk(&first) else { return Ok(Verified { plan: first, notes: Vec::new() }) };
-        let Some(time) = fall(named, first_walk, watch)? else {
-            return Ok(Verified { plan: first, notes: vec!["simulated: the robot stands".to_owned()] });
+        let simulated = simulate(named, first_walk, watch)?;
+        let unused = simulated.unused_gains().map(|text| format!("simulated: the gains {text}"));
+        let noted = |note: String| [note].into_iter().chain(unused.clone()).collect();
+        let Some(time) = simulated.fell else {
+            return Ok(Verified { plan: first, notes: noted("simulated: the robot stands".to_owned()) });
         };
         if self.repair {
             for repair in &REPAIRS {
@@ -55,9 +58,9 @@ impl Verification {
                     repaired => repaired?,
                 };
                 let Some(repaired_walk) = walk(&repaired) else { continue };
-                if fall(named, repaired_walk, watch)?.is_none() {
+                if simulate(named, repaired_walk, watch)?.fell.is_none() {
                     let note = format!("simulated: the robot would fall at {time:.2} s; it stands with {repair}");
-                    return Ok(Verified { plan: repaired, notes: vec![note] });
+                    return Ok(Verified { plan: repaired, notes: noted(note) });
                 }
             }
         }
@@ -65,19 +68,20 @@ impl Verification {
             true => "so do slower, wider and lower walks; nothing was written",
             false => "nothing was written; --repair plans again until it stands",
         };
+        unused.iter().for_each(|note| console::line("note", note));
         console::line("error", &format!("simulated: the robot falls at {time:.2} s; {advice}"));
         Err(Halt::Fell)
     }
 }
 
-/// The time at which the robot falls in a simulation with feedback on a level floor \[s\]; `None` if it does not.
-fn fall(named: &Named, walk: &Walk, watch: &Watch) -> Result<Option<f64>> {
+/// Simulates a walk with feedback on a level floor.
+fn simulate(named: &Named, walk: &Walk, watch: &Watch) -> Result<ScriptOutput> {
     let trajectory = walk.trajectory(&named.walker.biped);
     let model = named.shod.robot.to_mjcf(&named.meshes, &mut Vec::new())?;
     let soles = named.shod.soles.each_ref().map(String::as_str);
     let stage = Stage::new(&model, &trajectory, soles, None)?;
     let mut feedback = Feedback::new(&named.walker, &trajectory)?;
-    Ok(stage.play(&Case::default(), Some(&mut feedback), watch)?.1.fell)
+    Ok(stage.play(&Case::default(), Some(&mut feedback), watch)?.1)
 }
 
 /// The walker with steadier gaits.

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::json::FORMAT;
-use groebot_humanoid::gait::{Difference, Extreme, Gait, Greatest, Summary};
+use groebot_humanoid::gait::{Difference, Greatest, Summary};
 
 /// The quantities of a walk that are reported.
 pub struct WalkReport<'a> {
@@ -18,7 +18,8 @@ pub struct WalkReport<'a> {
 impl WalkReport<'_> {
     /// The report as JSON: metres, radians, seconds, N and N m.
     pub fn json(&self) -> Value {
-        let mut value = figures(self.summary);
+        let mut value = self.summary.to_json();
+        value["format"] = FORMAT.into();
         if let Some(torques) = &self.torques {
             value["torques"] = torques.iter().map(torque).collect();
         }
@@ -28,42 +29,6 @@ impl WalkReport<'_> {
         value["notes"] = self.notes.into();
         value
     }
-}
-
-fn figures(summary: &Summary) -> Value {
-    let ([nearest, fastest], [room, ratio]) =
-        ([&summary.nearest_limit.0, &summary.fastest.0], [&summary.nearest_limit.1, &summary.fastest.1]);
-    let collision =
-        |(links, depth): &([String; 2], Extreme)| json!({ "links": links, "depth": depth.value, "time": depth.time });
-    json!({
-        "format": FORMAT,
-        "robot": summary.robot,
-        "gait": match summary.gait {
-            Gait::Sine => "sine",
-            Gait::Preview => "preview control",
-            Gait::OneStep(_) => "one step goal",
-        },
-        "steps": summary.steps,
-        "duration": summary.duration,
-        "stepping_duration": summary.stepping,
-        "point_mass": summary.is_point_mass,
-        "distance": summary.distance,
-        "turn": summary.turn,
-        "torso_height": summary.torso_height,
-        "speed": summary.speed,
-        "zmp_margin": extreme(&summary.margin),
-        "static_margin": extreme(&summary.static_margin),
-        "pendulum_zmp_error": extreme(&summary.pendulum_error),
-        "nearest_limit": { "joint": nearest, "distance": room.value, "time": room.time },
-        "greatest_velocity": { "joint": fastest, "fraction": ratio.value, "time": ratio.time },
-        "collisions": summary.touching.iter().map(collision).collect::<Vec<_>>(),
-        "sole_tilt": extreme(&summary.tilt),
-        "slowed_phases": { "count": summary.slowed.0, "factor": summary.slowed.1 },
-    })
-}
-
-fn extreme(extreme: &Extreme) -> Value {
-    json!({ "value": extreme.value, "time": extreme.time })
 }
 
 fn torque(greatest: &Greatest) -> Value {

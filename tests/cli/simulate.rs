@@ -106,6 +106,46 @@ fn without_mujoco_it_reports_how_to_get_it() {
     }
 }
 
+/// A robot that falls at 1.5 s where the friction is 0.4, in the place of MuJoCo: seconds are a number or an empty cell in CSV, and null in JSON.
+#[cfg(unix)]
+#[test]
+fn the_time_of_a_fall_is_a_number_or_empty() {
+    use std::os::unix::fs::PermissionsExt;
+    let (folder, walk) = walked(&["nao", "--steps", "2"]);
+    let [python, answer] = ["python", "answer.csv"].map(|name| folder.path().join(name));
+    // The simulated motion is the planned one, with the columns of a simulation.
+    let rows = fs::read_to_string(&walk).unwrap();
+    let simulated_rows = rows.lines().enumerate().map(|(place, row)| match place {
+        0 | 1 => format!("{row}\n"),
+        2 => format!("{row},pressed [N],left_clearance [m],right_clearance [m]\n"),
+        _ => format!("{row},50,0,0\n"),
+    });
+    fs::write(&answer, simulated_rows.collect::<String>()).unwrap();
+    let output = r#"{"mujoco": "0", "fell": FELL, "motors": [], "unused_stiffness": null, "mass": 5, "points": []}"#;
+    let [falls, stands] = ["1.5", "null"].map(|fell| format!("echo '{}'", output.replace("FELL", fell)));
+    let copied = format!("cp '{}' answer.csv", text(&answer));
+    let script = format!("#!/bin/sh\n{copied}\ncase \"$*\" in *friction=0.4*) {falls} ;; *) {stands} ;; esac\n");
+    fs::write(&python, script).unwrap();
+    fs::set_permissions(&python, fs::Permissions::from_mode(0o755)).unwrap();
+    let table = simulated(&[&walk, "--open-loop", "--vary"], Some(&python));
+    assert_eq!((table.code, table.err.as_str()), (5, ""));
+    let mut rows = table.out.lines().map(|row| row.split(',').collect::<Vec<_>>());
+    let header = rows.next().unwrap();
+    let column = |name: &str| header.iter().position(|own| *own == name).unwrap();
+    let (friction, time) = (column("friction"), column("fall_time_s"));
+    let times: Vec<(bool, String)> = rows.map(|row| (row[friction] == "0.4", row[time].to_owned())).collect();
+    assert_eq!((times.len(), times.iter().filter(|(falls, _)| *falls).count()), (38, 9));
+    for (falls, time) in &times {
+        assert_eq!(time, if *falls { "1.50" } else { "" });
+    }
+    let json = simulated(&[&walk, "--open-loop", "--vary", "--json"], Some(&python));
+    let reported: Value = serde_json::from_str(&json.out).unwrap();
+    for run in reported["runs"].as_array().unwrap() {
+        let falls = run["case"]["friction"] == 0.4;
+        assert_eq!(run["run"]["fall_time"].as_f64(), falls.then_some(1.5));
+    }
+}
+
 #[test]
 fn nao_stands() {
     let (_folder, walk) = walked(&["nao", "--steps", "4"]);
@@ -135,6 +175,17 @@ fn described_gains_are_used_where_they_can_hold_the_robot() {
         let motors = run["motors"].as_array().unwrap();
         assert!(motors.iter().all(|motor| motor["described"] == is_used));
         assert!(motors.iter().all(|motor| is_used == (number(&motor["stiffness"]) == stiffness)));
+        // `--verify` reports it too.
+        let out = folder.path().join("verified.csv");
+        let verified =
+            with_python(&["walk", text(&model), "--steps", "2", "--verify", "--json", "-o", text(&out)], None);
+        assert_eq!(verified.code, 0, "{}", verified.err);
+        let report: Value = serde_json::from_str(&verified.out).unwrap();
+        let notes: Vec<&str> = report["notes"].as_array().unwrap().iter().map(|note| note.as_str().unwrap()).collect();
+        let unused =
+            "simulated: the gains of the description are not used: at most 1.0 N m/rad do not hold the robot upright";
+        assert!(notes.contains(&"simulated: the robot stands"), "{notes:?}");
+        assert_eq!(notes.contains(&unused), !is_used, "{notes:?}");
     }
 }
 

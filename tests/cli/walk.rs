@@ -35,6 +35,22 @@ fn eight_steps_are_written_as_csv_json_and_svg() {
     assert!(fs::read_to_string(&svg).unwrap().contains("zero moment point"));
 }
 
+/// The summary of a motion file has the keys and values of the report of `--json`, which is validated with the schema.
+#[test]
+fn a_motion_has_the_summary_that_is_reported() {
+    let folder = tempdir().unwrap();
+    let out = folder.path().join("walk.json");
+    for walk in [&["walk", "nao", "--steps", "2"][..], &["walk", "rh0", "--plan", "out right, in left"]] {
+        let printed = succeed(&[walk, &["--json", "-o", text(&out)]].concat());
+        let mut reported: serde_json::Value = serde_json::from_str(&printed).unwrap();
+        for key in ["format", "notes"] {
+            reported.as_object_mut().unwrap().remove(key).unwrap();
+        }
+        let motion: serde_json::Value = serde_json::from_str(&fs::read_to_string(&out).unwrap()).unwrap();
+        assert_eq!((&motion["format"], &motion["walk"]["summary"]), (&2.into(), &reported));
+    }
+}
+
 #[test]
 fn turns_files_of_footsteps_and_preview_control_are_walked() {
     let reported = succeed(&["walk", "nao", "--length", "0", "--turn=-40", "--first", "right"]);

@@ -2,7 +2,7 @@
 //!
 //! | of | limit |
 //! | --- | --- |
-//! | a description in TOML, a task file | [`DESCRIPTION_BYTES`] |
+//! | a description in TOML, a task file | [`DESCRIPTION_BYTES`], [`TOML_DEPTH`] levels |
 //! | a URDF or other XML | [`XML_BYTES`], [`XML_DEPTH`] levels, [`XML_ATTRIBUTES`] attributes and [`XML_TEXT`] bytes of text an element |
 //! | an expansion of xacro | [`XACRO_FILES`] files with [`XACRO_BYTES`], [`XACRO_STEPS`] steps, [`XACRO_DEPTH`] levels, texts and lists of [`XACRO_LENGTH`]; [`XML_BYTES`] of output |
 //! | the included files of an MJCF or SDF | [`XML_INCLUDES`], [`XML_INCLUDED_BYTES`], [`XML_ELEMENTS`] elements with them |
@@ -37,6 +37,8 @@ use crate::{Error, ErrorKind, Result};
 
 /// Bytes of a TOML description or a task file.
 pub const DESCRIPTION_BYTES: u64 = 1_000_000;
+/// Nesting depth of TOML: parts of keys with dots, lists and inline tables.
+pub const TOML_DEPTH: usize = 80;
 /// Bytes of a URDF.
 pub const XML_BYTES: u64 = 4_000_000;
 /// Nesting depth of XML elements.

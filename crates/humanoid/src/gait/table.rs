@@ -9,7 +9,7 @@ use super::footprint::{Footprint, Side};
 use super::plan::Walk;
 use super::request::Gait;
 use super::schedule::Action;
-use super::summary::Summary;
+use super::summary::{Extreme, Summary};
 use groebot_robot::motion::{Contact, Figure, JointTrack, Track, Trajectory};
 
 impl Walk {
@@ -90,7 +90,7 @@ impl Walk {
             "start": { "left": print(&route.start[0]), "right": print(&route.start[1]) },
             "steps": steps.collect::<Vec<_>>(),
             "phases": self.phases(),
-            "summary": summary(&Summary::of(biped, self)),
+            "summary": Summary::of(biped, self).to_json(),
             "support": self.balances.iter().map(support).collect::<Vec<_>>(),
         });
         value
@@ -119,26 +119,37 @@ fn print(print: &Footprint) -> Value {
     json!({ "x": print.x, "y": print.y, "yaw": print.yaw })
 }
 
-fn summary(summary: &Summary) -> Value {
-    let extreme = |extreme: &super::Extreme| json!({ "value": extreme.value, "time": extreme.time });
-    let joint = |(name, figure): &(String, super::Extreme)| json!({ "joint": name, "value": figure.value, "time": figure.time });
-    json!({
-        "gait": match summary.gait { Gait::Sine => "sine", Gait::Preview => "preview", Gait::OneStep(_) => "osg" },
-        "steps": summary.steps,
-        "duration": summary.duration,
-        "stepping": summary.stepping,
-        "point_mass": summary.is_point_mass,
-        "distance": summary.distance,
-        "turn": summary.turn,
-        "torso_height": summary.torso_height,
-        "speed": summary.speed,
-        "margin": extreme(&summary.margin),
-        "static_margin": extreme(&summary.static_margin),
-        "pendulum_error": extreme(&summary.pendulum_error),
-        "nearest_limit": joint(&summary.nearest_limit),
-        "fastest": joint(&summary.fastest),
-        "touching": summary.touching.iter().map(|(links, depth)| json!({ "links": links, "depth": depth.value, "time": depth.time })).collect::<Vec<_>>(),
-        "slowed_phases": summary.slowed.0,
-        "slowest_factor": summary.slowed.1,
-    })
+impl Summary {
+    /// Converts the figures to JSON, for the report of a walk and for its motion file: metres, radians, seconds. The
+    /// keys are those of the entry `walk` in `docs/cli_schema.json`, from `robot` to `slowed_phases`.
+    pub fn to_json(&self) -> Value {
+        let extreme = |extreme: &Extreme| json!({ "value": extreme.value, "time": extreme.time });
+        let ([nearest, fastest], [room, ratio]) =
+            ([&self.nearest_limit.0, &self.fastest.0], [&self.nearest_limit.1, &self.fastest.1]);
+        let collision = |(links, depth): &([String; 2], Extreme)| json!({ "links": links, "depth": depth.value, "time": depth.time });
+        json!({
+            "robot": self.robot,
+            "gait": match self.gait {
+                Gait::Sine => "sine",
+                Gait::Preview => "preview control",
+                Gait::OneStep(_) => "one step goal",
+            },
+            "steps": self.steps,
+            "duration": self.duration,
+            "stepping_duration": self.stepping,
+            "point_mass": self.is_point_mass,
+            "distance": self.distance,
+            "turn": self.turn,
+            "torso_height": self.torso_height,
+            "speed": self.speed,
+            "zmp_margin": extreme(&self.margin),
+            "static_margin": extreme(&self.static_margin),
+            "pendulum_zmp_error": extreme(&self.pendulum_error),
+            "nearest_limit": { "joint": nearest, "distance": room.value, "time": room.time },
+            "greatest_velocity": { "joint": fastest, "fraction": ratio.value, "time": ratio.time },
+            "collisions": self.touching.iter().map(collision).collect::<Vec<_>>(),
+            "sole_tilt": extreme(&self.tilt),
+            "slowed_phases": { "count": self.slowed.0, "factor": self.slowed.1 },
+        })
+    }
 }

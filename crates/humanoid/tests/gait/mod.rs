@@ -21,6 +21,8 @@ mod zmp;
 use std::sync::OnceLock;
 
 use groebot_humanoid::Watch;
+// `stabilizer/descent.rs` of the sources, which is compiled into these tests, finds it here.
+pub(crate) use groebot_humanoid::gait::GRAVITY;
 use groebot_humanoid::gait::{Biped, Durations, Gait, Legs, Regular, Request, Route, Side, Style, TICK, Walk, plan};
 use groebot_humanoid::walkers::Outline;
 

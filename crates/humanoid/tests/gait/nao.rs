@@ -93,7 +93,7 @@ fn csv_is_sampled_at_100_hz_with_one_actuator_for_both_hips() {
         (&written.q, &written.times, &written.joints, &written.figures)
     );
     let json: serde_json::Value = serde_json::from_str(&text).unwrap();
-    assert_eq!((&json["format"], &json["walk"]["tick"]), (&1.into(), &TICK.into()));
+    assert_eq!((&json["format"], &json["walk"]["tick"]), (&2.into(), &TICK.into()));
     assert_eq!(json["walk"]["summary"]["gait"], "sine");
     assert_eq!(json["walk"]["support"].as_array().unwrap().len(), read.times.len());
     assert!(findings(&written, &Bounds { margin: 0.01, speed_share: 0.9, ..Bounds::default() }).is_empty());

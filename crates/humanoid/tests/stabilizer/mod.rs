@@ -1,6 +1,8 @@
 //! The stabiliser without physics: it does nothing where nothing is wrong, and displaced footsteps are those of the forward kinematics of its targets. Walks in
 //! MuJoCo are in `tests/cli/simulate.rs` of the workspace.
 
+mod descent;
+
 use groebot_humanoid::gait::{GRAVITY, Regular, Route, Side, Walk, Walker, plan};
 use groebot_humanoid::stabilizer::{SoleForce, Stabilizer, State};
 use groebot_humanoid::walkers::{Outline, walker};

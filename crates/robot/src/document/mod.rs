@@ -17,6 +17,7 @@ pub mod converted;
 mod description;
 mod encoding;
 mod json;
+mod nesting;
 mod text;
 
 use num_traits::ToPrimitive;
@@ -53,10 +54,16 @@ impl<'t> Document<'t> {
     /// Parses TOML 1.x text.
     ///
     /// # Errors
-    /// [`ErrorKind::Syntax`] with its line. Keys given twice and nesting deeper than 80 are also refused. With 80 dots
-    /// in each key, the deepest document needs less than 2 MB of stack.
+    /// [`ErrorKind::Syntax`] with its line. Keys given twice and nesting deeper than [`limits::TOML_DEPTH`] are also
+    /// refused.
     pub fn parse(text: &'t str) -> Result<Self> {
         let lines: Vec<usize> = text.match_indices('\n').map(|(at, _)| at).collect();
+        if let Some(at) = nesting::too_deep(text) {
+            let levels = limits::TOML_DEPTH;
+            let message =
+                format!("this is nested too deep; {levels} levels of keys with dots, tables and lists are read");
+            return Err(Error::new(ErrorKind::Syntax, message).at_line(line_of(&lines, at)));
+        }
         match DeTable::parse(text) {
             Ok(table) => Ok(Document { entries: table.into_inner(), lines }),
             Err(error) => {

@@ -12,7 +12,8 @@ use crate::spatial::Pose;
 const FORMAT: JsonFormat = JsonFormat {
     what: "trajectory",
     oldest: 1,
-    number: 1,
+    // Since 2, the summary of a walk has the keys of `groebot walk --json`; nothing else differs from 1.
+    number: 2,
     renew: "`groebot walk` and `groebot follow` write new ones",
 };
 
@@ -55,7 +56,7 @@ struct WrittenFigure {
 }
 
 impl Trajectory {
-    /// Converts the trajectory to JSON: `format` (1), `robot`, `joints` (name, slides, limits, speed), `time`, `q`,
+    /// Converts the trajectory to JSON: `format` (2), `robot`, `joints` (name, slides, limits, speed), `time`, `q`,
     /// `base`, `contacts`, `points`, `figures`; poses are position and quaternion xyzw.
     pub fn to_json(&self) -> serde_json::Value {
         let poses = |poses: &[Pose]| poses.iter().map(pose_numbers).collect::<Vec<_>>();
@@ -84,7 +85,8 @@ impl Trajectory {
         serde_json::to_value(written).expect("JSON can represent every trajectory")
     }
 
-    /// Reads a trajectory in the format of [`Trajectory::to_json`]. Other keys are ignored.
+    /// Reads a trajectory in the format of [`Trajectory::to_json`], or in format 1, which differs only in the summary of
+    /// a walk. Other keys are ignored.
     ///
     /// # Errors
     /// [`crate::ErrorKind::Syntax`] for text that is not such JSON, [`crate::ErrorKind::Unsupported`] for another

@@ -171,10 +171,44 @@ fn nesting_of_every_kind_is_safe() {
     for text in &refused {
         assert_eq!(Document::parse(text).unwrap_err().kind(), ErrorKind::Syntax);
     }
-    let tables = format!("{{{} = ", dots(79)).repeat(79);
-    let deepest = format!("[{}]\n{} = {tables}1{}", dots(79), dots(79), "}".repeat(79));
-    Document::parse(&deepest).unwrap();
-    Document::parse(&format!("{deepest}}}")).unwrap_err();
+}
+
+/// Documents with the greatest depth are read and freed with little stack, in any build; deeper ones are refused. Rust's threads have 2 MB.
+#[test]
+fn the_deepest_documents_need_little_stack() {
+    let dots = |n: usize| vec!["a"; n].join(".");
+    let nested = |start: &str, end: &str, n: usize| format!("a = {}1{}", start.repeat(n), end.repeat(n));
+    let tables = |n: usize| {
+        let (header, start) = (dots(78 - 4 * n), format!("{{{} = ", dots(3)).repeat(n));
+        format!("\n\n[{header}]\nb = 1\na.a = {start}1{}", "}".repeat(n))
+    };
+    let documents = [
+        (nested("[", "]", 79), nested("[", "]", 80), 1),
+        (nested("{ a = ", "}", 39) + " # 1 + 2 * 39 levels", nested("{ a = ", "}", 40), 1),
+        (format!("{} = 1", dots(80)), format!("{} = 1", dots(81)), 1),
+        (format!("[{}]\na = 1", dots(79)), format!("[{}]\na = 1", dots(80)), 2),
+        (format!("[[{}]]\na = 1", dots(78)), format!("\n[[{}]]\na = 1", dots(79)), 3),
+        (tables(19), tables(19).replace("[a", "[b.a"), 5),
+        // Nested levels that follow one another do not add up.
+        (
+            format!("a = [{}]", "[[1.5, 2.5], {b.c = 1, d = 2}], ".repeat(200)),
+            format!("a = [{}", nested("[", "]", 79)),
+            1,
+        ),
+        // 79 levels in each of 79 keys: the tables of the parser overflowed the stack when they were freed.
+        (
+            "a = 1".to_owned(),
+            format!("{} = {}1{}", dots(79), format!("{{{} = ", dots(79)).repeat(79), "}".repeat(79)),
+            1,
+        ),
+    ];
+    let read = move || {
+        for (deepest, deeper, line) in &documents {
+            Document::parse(deepest).unwrap_or_else(|error| panic!("{error}: {deepest}"));
+            assert_error(&Document::parse(deeper).unwrap_err(), ErrorKind::Syntax, Some(*line), "80 levels");
+        }
+    };
+    std::thread::Builder::new().stack_size(512 << 10).spawn(read).unwrap().join().unwrap();
 }
 
 proptest! {

@@ -9,6 +9,7 @@ mod lagrange;
 pub mod parts;
 mod pinocchio;
 mod placed;
+mod quantiles;
 pub mod samples;
 
 use groebot_robot::dynamics::Model;

@@ -14,6 +14,7 @@ use tempfile::tempdir;
 
 use super::exact;
 use super::round_trip::RICH;
+use crate::errors::assert_error;
 
 const ARM: &str = include_str!("formats/arm.sdf");
 const NEAR: f64 = 1e-12;
@@ -308,4 +309,24 @@ fn a_joint_that_closes_a_loop_is_ignored_with_a_note() {
     assert_eq!(robot.moving().len(), 3);
     let notes = robot.parts().notes.join("\n");
     assert!(notes.contains("line 6: joint `dc` closes a loop of links and is ignored"), "{notes}");
+}
+
+/// Joint `cb` is reversed. Where a joint is beside the origin of its child, links and joints without lines are added, also then the error has its own line.
+#[test]
+fn a_reversed_joint_is_refused_with_its_line() {
+    let axis = "<axis><xyz>0 0 1</xyz></axis>";
+    for pose in ["", "<pose>0 0 1 0 0 0</pose>"] {
+        for kind in ["revolute", "ball", "universal"] {
+            let axes =
+                if kind == "universal" { format!("{axis}<axis2><xyz>0 1 0</xyz></axis2>") } else { axis.to_owned() };
+            let text = format!(
+                "<link name='c'/>
+                <joint name='ab' type='revolute'><parent>a</parent><child>b</child>{pose}{axis}</joint>
+                <joint name='cb' type='{kind}'><parent>c</parent><child>b</child>{pose}{axes}</joint>"
+            );
+            let error = model(&text).unwrap_err();
+            assert_error(&error, ErrorKind::BadValue, Some(4), "its child `b` is already the child of joint `ab`");
+            assert!(error.message().starts_with("joint `cb`: "), "{error}");
+        }
+    }
 }

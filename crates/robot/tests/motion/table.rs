@@ -36,7 +36,9 @@ fn json_is_read_back() {
     assert_eq!(Trajectory::from_json(&value.to_string()).unwrap(), path);
     value["walk"] = 1.into();
     assert!(Trajectory::from_json(&value.to_string()).is_ok(), "what others add is ignored");
-    for (format, reported) in [(2.into(), "has `format` 2"), (serde_json::Value::Null, "has no `format`")] {
+    value["format"] = 1.into();
+    assert_eq!(Trajectory::from_json(&value.to_string()).unwrap(), path);
+    for (format, reported) in [(3.into(), "has `format` 3"), (serde_json::Value::Null, "has no `format`")] {
         value["format"] = format;
         let error = Trajectory::from_json(&value.to_string()).unwrap_err();
         assert!(error.kind() == ErrorKind::Unsupported && error.message().contains(reported), "{error}");

@@ -179,6 +179,14 @@ impl Moved {
     pub(crate) fn deviation(&self, reach: f64) -> f64 {
         self.angle.max(self.distance / reach)
     }
+
+    /// Describes the difference without what is only rounding in doubles: `turned by 1.0e-5 rad and shifted by 2.0e-5 m`.
+    fn words(&self, reach: f64, unit: LengthUnit) -> String {
+        let turn = (self.angle > SAME).then(|| format!("turned by {:.1e} rad", self.angle));
+        let shift =
+            (self.distance / reach > SAME).then(|| format!("shifted by {:.1e} {}", self.distance, unit.symbol()));
+        turn.into_iter().chain(shift).collect::<Vec<_>>().join(" and ")
+    }
 }
 
 impl Relation {
@@ -222,8 +230,7 @@ impl Report {
         }
         lines.extend(self.moved.iter().filter(|moved| moved.deviation(self.reach) > SAME).map(|moved| {
             let name = moved.joint.as_deref().map_or("the tip".to_owned(), |name| format!("the axis of {name}"));
-            let unit = self.length_unit.symbol();
-            format!("{name} is turned by {:.1e} rad and shifted by {:.1e} {unit}", moved.angle, moved.distance)
+            format!("{name} is {}", moved.words(self.reach, self.length_unit))
         }));
         lines
     }

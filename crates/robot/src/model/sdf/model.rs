@@ -30,6 +30,8 @@ pub struct Scope {
     names: Names,
     joints: Vec<Pending>,
     trees: Trees,
+    /// The joint above each link.
+    above: HashMap<String, String>,
     /// The full names of frames that become links, with their places in the file.
     tips: Vec<(String, Option<usize>, Error)>,
 }
@@ -39,7 +41,8 @@ impl Scope {
     pub fn new(name: &str, version: (u32, u32)) -> Self {
         let parts = RobotParts { name: name.to_owned(), ..RobotParts::default() };
         let (frames, names) = (Frames::new(), Names::default());
-        Scope { version, parts, frames, names, joints: Vec::new(), trees: Trees::default(), tips: Vec::new() }
+        let (joints, trees, above, tips) = Default::default();
+        Scope { version, parts, frames, names, joints, trees, above, tips }
     }
 
     /// Reads the outermost model.
@@ -186,6 +189,15 @@ impl Scope {
             let text = "closes a loop of links and is ignored: links form a tree without it";
             self.parts.notes.push(format!("line {}: joint `{}` {text}", element.line, shown(name)));
             return Ok(false);
+        }
+        if let Some(other) = self.above.insert(child.clone(), name.clone()) {
+            let text = format!(
+                "joint `{}`: its child `{}` is already the child of joint `{}`; a robot must be a tree: exchange parent and child of the joint that is reversed",
+                shown(name),
+                shown(&child),
+                shown(&other)
+            );
+            return Err(self::at(element, text));
         }
         let pose = self.frames.between(&parent, &child, &at)?;
         if kind == Kind::Fixed {
