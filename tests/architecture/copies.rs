@@ -18,7 +18,7 @@ fn copies() -> Vec<(String, String)> {
     let of_page = |(folder, page)| (format!("crates/{folder}/docs/{page}.md"), format!("docs/{page}.md"));
     let of_room = |room| (format!("crates/humanoid/examples/{room}.toml"), format!("examples/{room}.toml"));
     let of_viewer = |file| (format!("crates/humanoid/src/view/dist/{file}"), format!("viewer/dist/{file}"));
-    let viewer = ["page.html", "viewer.js", "groebot.wasm", "LICENSES.txt"];
+    let viewer = ["page.html", "viewer.js", "groebot.wasm.xz", "LICENSES.txt"];
     (legs.iter().map(of_leg))
         .chain(pages.into_iter().map(of_page))
         .chain(["living_room", "encirclement"].iter().map(of_room))

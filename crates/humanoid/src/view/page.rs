@@ -22,12 +22,22 @@ const SHELL: &str = include_str!("dist/page.html");
 /// The script of the page.
 const SCRIPT: &str = include_str!("dist/viewer.js");
 
-/// The WebAssembly that solves and walks in the page.
+/// The WebAssembly that solves and walks in the page, as text.
 #[cfg(not(target_family = "wasm"))]
-const WASM: &[u8] = include_bytes!("dist/groebot.wasm");
+fn wasm() -> String {
+    use std::io::Read;
+
+    const XZ: &[u8] = include_bytes!("dist/groebot.wasm.xz");
+    let mut module = Vec::new();
+    lzma_rust2::XzReader::new(XZ, false).read_to_end(&mut module).expect("the file is a whole xz file");
+    bytes::file(&module)
+}
+
 /// The WebAssembly build does not contain itself.
 #[cfg(target_family = "wasm")]
-const WASM: &[u8] = &[];
+fn wasm() -> String {
+    bytes::file(&[])
+}
 
 /// A page that shows a robot and its motion.
 #[derive(Clone, Debug)]
@@ -50,7 +60,7 @@ impl Page {
     pub fn of_chain(chain: &Chain, program: String, certificate: Option<&str>) -> Self {
         let mut page = Page::of(chain::described(chain));
         page.data.limbs.push(chain::limb(chain, &program, certificate.map(hash)));
-        page.data.wasm = Some(bytes::file(WASM));
+        page.data.wasm = Some(wasm());
         page
     }
 
@@ -86,7 +96,7 @@ impl Page {
             ..chain::limb(chain, &program, certificate.map(hash))
         };
         self.data.limbs.push(limb);
-        self.data.wasm = Some(bytes::file(WASM));
+        self.data.wasm = Some(wasm());
         Ok(self)
     }
 
@@ -97,7 +107,7 @@ impl Page {
     /// As [`crate::nav::Room::from_toml`], [`crate::sim::Start::of_robot`] and [`crate::sim::Run::new`].
     pub fn with_run(mut self, request: &RunRequest<'_>) -> Result<Self> {
         self.data.run = Some(run(request)?);
-        self.data.wasm = Some(bytes::file(WASM));
+        self.data.wasm = Some(wasm());
         Ok(self)
     }
 
