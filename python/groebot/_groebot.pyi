@@ -204,7 +204,7 @@ class Solver:
         """The number of complex solutions of a generic target, if it was counted."""
     @property
     def compiled(self) -> bool:
-        """Whether the solver is compiled. A derived solver is interpreted and returns bitwise identical solutions."""
+        """Whether the solver has compiled code for ordinary targets. Other targets and other solvers are interpreted, with bitwise identical solutions."""
     @overload
     def solve(
         self,

@@ -142,7 +142,7 @@ impl Solver {
         self.0.program.about.as_ref().and_then(|about| about.solutions)
     }
 
-    /// Whether the solver is compiled. A derived solver is interpreted and returns bitwise identical solutions.
+    /// Whether the solver has compiled code for ordinary targets. Other targets and other solvers are interpreted, with bitwise identical solutions.
     #[getter]
     fn compiled(&self) -> bool {
         self.0.is_printed

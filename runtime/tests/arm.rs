@@ -165,7 +165,7 @@ fn ordinary_targets_have_the_solutions_of_all_targets() {
             ordinary += 1;
         }
     }
-    // All but those at the edge, where solutions cannot be told apart, and the last three.
+    // All but those at the edge, where the two solutions are nearly equal, and the last three.
     assert!(ordinary > 3000 && ordinary < targets.len() - 3, "{ordinary}");
 }
 
