@@ -191,9 +191,17 @@ impl<'a, M: Mechanism> Answers<'a, M> {
     #[allow(unsafe_code)]
     pub fn flush(&mut self) {
         #[cfg(all(target_arch = "x86_64", feature = "std"))]
-        if self.problem.facts().candidates.is_multiple_of(4) && std::is_x86_feature_detected!("avx2") {
-            // SAFETY: the processor supports the target feature of the function.
-            return unsafe { self.flush_by_4() };
+        {
+            let Facts { candidates, nearby, .. } = self.problem.facts();
+            let are_led = nearby.is_some() && candidates.is_multiple_of(8);
+            if are_led && std::is_x86_feature_detected!("avx512f") {
+                // SAFETY: the processor supports the target feature of the function.
+                return unsafe { self.flush_by_8() };
+            }
+            if candidates.is_multiple_of(4) && std::is_x86_feature_detected!("avx2") {
+                // SAFETY: as above.
+                return unsafe { self.flush_by_4() };
+            }
         }
         self.flush_by::<LANES>();
     }
@@ -203,6 +211,12 @@ impl<'a, M: Mechanism> Answers<'a, M> {
     #[target_feature(enable = "avx2")]
     fn flush_by_4(&mut self) {
         self.flush_by::<4>();
+    }
+
+    #[cfg(all(target_arch = "x86_64", feature = "std"))]
+    #[target_feature(enable = "avx512f")]
+    fn flush_by_8(&mut self) {
+        self.flush_by::<8>();
     }
 
     /// Processes `W` waiting candidates at a time.

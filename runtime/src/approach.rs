@@ -1,13 +1,13 @@
 //! Newton steps from a candidate of a nearby mechanism's formulas to the solution next to it: [`Problem::approached`], and [`Approaches`] for several candidates.
 
 use crate::counters::{Event, Phase};
-use crate::effort::{APPROACHES, TURN};
-use crate::lanes::Lanes;
+use crate::effort::{APPROACHES, CHORD, TURN};
+use crate::lanes::{Lanes, Mask};
 use crate::mechanism::{Abreast, Joint, Joints, Mechanism, Parameters, Places, Shorts};
 use crate::number::{Number, With};
 use crate::problem::{Fit, Problem, everywhere, fit};
 use crate::storage::Array;
-use crate::tolerances::{ACCEPTANCE, PIVOTS, POLISHING};
+use crate::tolerances::{ACCEPTANCE, PIVOTS};
 use crate::trigonometry::{cosine_and_sine, in_turn};
 
 /// The end of the Newton steps from a candidate.
@@ -41,12 +41,13 @@ impl<M: Mechanism> Problem<'_, M> {
             let missed = missed_by::<M, f64>(&here.value, &here.size);
             first = first.or(Some((missed, normal.pivot)));
             let mut value = here.value;
-            for second in 0..if missed > POLISHING.chord { 1 } else { 2 } {
-                if second > 0 {
-                    value = self.mechanism.short(self.parameters, &at).value;
+            for second in [false, true] {
+                if second {
+                    value = self.mechanism.short_value(self.parameters, &at);
                 }
                 self.step_back(&normal.step(&value), &mut at, &mut end)?;
-                let fit = self.measure_at(&at, &end);
+                let is_near = second || missed <= CHORD;
+                let fit = if is_near { self.measure_at(&at, &end) } else { continue };
                 if fit.relative < ACCEPTANCE.rounding {
                     let (missed, pivot) = first?;
                     return fit.accepted.then_some(Approach { end, fit, missed, pivot });
@@ -183,7 +184,7 @@ pub(crate) struct Approaches<M: Mechanism> {
 }
 
 impl<M: Mechanism> Approaches<M> {
-    /// Takes the steps for the first `waiting` candidates, `W` at once.
+    /// Takes the steps for the first `waiting` candidates, `W` at once. The result of one does not depend on the others.
     #[inline(always)]
     pub fn new<const W: usize>(problem: &Problem<'_, M>, at: &Places<M, Abreast<M>>, waiting: usize) -> Self {
         let _phase = Phase::Waiting.begin();
@@ -199,81 +200,22 @@ impl<M: Mechanism> Approaches<M> {
         };
         let p = everywhere::<M, W>(problem);
         for first in (0..waiting.min(room)).step_by(W) {
-            approaches.run(problem, &p, at, first, waiting);
+            let none = Mask(core::array::from_fn(|lane| if first + lane < waiting { 0 } else { !0 }));
+            approaches.write(first, &lead(problem.mechanism, &p, abreast::<M, W>(at, first, 1), none));
         }
         approaches
     }
 
-    /// Takes the steps for `W` candidates. The result of one does not depend on the others.
     #[inline(always)]
-    fn run<const W: usize>(
-        &mut self,
-        problem: &Problem<'_, M>,
-        p: &Parameters<M, Lanes<W>>,
-        at: &Places<M, Abreast<M>>,
-        first: usize,
-        waiting: usize,
-    ) {
-        let joints = problem.joints();
-        let mut walkers = Walkers::<M, W> {
-            here: abreast::<M, W>(at, first, 1),
-            steps: Array::by(joints, |_| Lanes([0.0; W])),
-            sound: Lanes([1.0; W]),
-            are_done: core::array::from_fn(|lane| first + lane >= waiting),
-        };
-        let stay = walkers.steps.clone();
-        walkers.step_back(problem, &stay);
-        for round in 0..APPROACHES {
-            Event::Short.count();
-            let short = problem.mechanism.short(p, &walkers.here);
-            let missed = missed_by::<M, Lanes<W>>(&short.value, &short.size);
-            let normal = Normal::<M, Lanes<W>>::new(short.columns, joints, &mut walkers.sound);
-            if round == 0 {
-                for lane in (0..W).filter(|lane| !walkers.are_done[*lane]) {
-                    self.missed.as_mut()[first + lane] = missed.0[lane];
-                    self.pivot.as_mut()[first + lane] = normal.pivot.0[lane];
-                }
-            }
-            walkers.step_back(problem, &normal.step(&short.value));
-            if self.write(problem, p, first, &mut walkers) {
-                return;
-            }
-            // The first candidate is representative of all.
-            if self.missed.as_ref()[0] > POLISHING.chord {
-                continue;
-            }
-            let value = problem.mechanism.short(p, &walkers.here).value;
-            walkers.step_back(problem, &normal.step(&value));
-            if self.write(problem, p, first, &mut walkers) {
-                return;
-            }
-        }
-    }
-
-    /// Writes the results of the candidates that were not finished before, and returns whether all are finished.
-    #[inline(always)]
-    fn write<const W: usize>(
-        &mut self,
-        problem: &Problem<'_, M>,
-        p: &Parameters<M, Lanes<W>>,
-        first: usize,
-        walkers: &mut Walkers<M, W>,
-    ) -> bool {
-        let [residual, relative] = fit::<M, W>(problem.mechanism, p, &walkers.here);
-        for lane in 0..W {
-            if walkers.are_done[lane] {
-                continue;
-            }
-            let k = first + lane;
-            for (all, steps) in self.steps.as_mut().iter_mut().zip(walkers.steps.as_ref()) {
-                all.as_mut()[k] = steps.0[lane];
-            }
-            (self.residual.as_mut()[k], self.relative.as_mut()[k]) = (residual.0[lane], relative.0[lane]);
-            self.sound.as_mut()[k] = walkers.sound.0[lane];
-            let is_sound = walkers.sound.0[lane] > 0.0;
-            walkers.are_done[lane] = !is_sound || relative.0[lane] < ACCEPTANCE.rounding;
-        }
-        walkers.are_done.iter().all(|is_done| *is_done)
+    fn write<const W: usize>(&mut self, first: usize, ends: &Ends<M, W>) {
+        let Approaches { steps, residual, relative, missed, pivot, sound } = self;
+        let write = |row: &mut Abreast<M>, lanes: &Lanes<W>| row.as_mut()[first..first + W].copy_from_slice(&lanes.0);
+        steps.as_mut().iter_mut().zip(ends.steps.as_ref()).for_each(|(row, lanes)| write(row, lanes));
+        write(residual, &ends.residual);
+        write(relative, &ends.relative);
+        write(missed, &ends.missed);
+        write(pivot, &ends.pivot);
+        write(sound, &ends.sound);
     }
 
     /// The result for the candidate with index `k`, which begins at `q`.
@@ -302,21 +244,67 @@ pub(crate) fn abreast<M: Mechanism, const W: usize>(
     Array::by(rows.len(), |i| Lanes(core::array::from_fn(|lane| rows[i].as_ref()[first + lane * stride])))
 }
 
+/// The ends of Newton steps from several candidates, each as in [`Approaches`].
+pub(crate) struct Ends<M: Mechanism, const W: usize> {
+    pub steps: Joints<M, Lanes<W>>,
+    pub residual: Lanes<W>,
+    pub relative: Lanes<W>,
+    pub missed: Lanes<W>,
+    pub pivot: Lanes<W>,
+    pub sound: Lanes<W>,
+}
+
+/// Takes Newton steps from candidates with these cosines and sines, except where there is `none`. The result of one does not depend on the others.
+#[inline(always)]
+pub(crate) fn lead<M: Mechanism, const W: usize>(
+    mechanism: &M,
+    p: &Parameters<M, Lanes<W>>,
+    here: Places<M, Lanes<W>>,
+    none: Mask<W>,
+) -> Ends<M, W> {
+    let joints = mechanism.facts().joints;
+    let zero = Lanes([0.0; W]);
+    let zeros: Joints<M, Lanes<W>> = Array::by(joints.len(), |_| zero);
+    let mut walkers = Walkers::<M, W> { here, steps: zeros.clone(), sound: Lanes([1.0; W]), done: none };
+    let mut ends =
+        Ends { steps: zeros.clone(), residual: zero, relative: zero, missed: zero, pivot: zero, sound: zero };
+    walkers.step_back(joints, &zeros);
+    for round in 0..APPROACHES {
+        Event::Short.count();
+        let short = mechanism.short(p, &walkers.here);
+        let missed = missed_by::<M, Lanes<W>>(&short.value, &short.size);
+        let normal = Normal::<M, Lanes<W>>::new(short.columns, joints.len(), &mut walkers.sound);
+        if round == 0 {
+            (ends.missed, ends.pivot) = (missed, normal.pivot);
+        }
+        walkers.step_back(joints, &normal.step(&short.value));
+        if walkers.write(mechanism, p, missed.at_most(Lanes::of(CHORD)), &mut ends) {
+            break;
+        }
+        let value = mechanism.short_value(p, &walkers.here);
+        walkers.step_back(joints, &normal.step(&value));
+        if walkers.write(mechanism, p, Mask([!0; W]), &mut ends) {
+            break;
+        }
+    }
+    ends
+}
+
 /// Newton iterations of several candidates side by side: for each its cosines and sines, the sum of its steps, whether its equations are regular and its steps
 /// short (1, else 0), and whether it is finished.
 struct Walkers<M: Mechanism, const W: usize> {
     here: Places<M, Lanes<W>>,
     steps: Joints<M, Lanes<W>>,
     sound: Lanes<W>,
-    are_done: [bool; W],
+    done: Mask<W>,
 }
 
 impl<M: Mechanism, const W: usize> Walkers<M, W> {
     /// Same as [`Problem::step_back`]. A candidate with a long step, or with a pair far from the unit circle, becomes unsound.
     #[inline(always)]
-    fn step_back(&mut self, problem: &Problem<'_, M>, step: &Joints<M, Lanes<W>>) {
+    fn step_back(&mut self, joints: &[Joint], step: &Joints<M, Lanes<W>>) {
         let at = self.here.as_mut();
-        for (delta, joint) in step.as_ref().iter().zip(problem.facts().joints) {
+        for (delta, joint) in step.as_ref().iter().zip(joints) {
             match *joint {
                 Joint::Angle([c, s]) => {
                     let (pair, norm) = turned_back(*delta, [at[c], at[s]]);
@@ -330,5 +318,22 @@ impl<M: Mechanism, const W: usize> Walkers<M, W> {
             }
         }
         self.steps.as_mut().iter_mut().zip(step.as_ref()).for_each(|(sum, step)| *sum = *sum + *step);
+    }
+
+    /// Writes the results of the given candidates that were not finished before, and returns whether all candidates are finished: each has converged or failed.
+    #[inline(always)]
+    fn write(&mut self, mechanism: &M, p: &Parameters<M, Lanes<W>>, these: Mask<W>, ends: &mut Ends<M, W>) -> bool {
+        let these = these & self.done.inverted();
+        if these.any() {
+            let [residual, relative] = fit::<M, W>(mechanism, p, &self.here);
+            let write = |end: &mut Lanes<W>, now: &Lanes<W>| *end = now.or(*end, these);
+            ends.steps.as_mut().iter_mut().zip(self.steps.as_ref()).for_each(|(end, now)| write(end, now));
+            write(&mut ends.residual, &residual);
+            write(&mut ends.relative, &relative);
+            write(&mut ends.sound, &self.sound);
+            let goes_on = self.sound.exceeds(Lanes([0.0; W])) & Lanes::of(ACCEPTANCE.rounding).exceeds(relative).inverted();
+            self.done = self.done | (these & goes_on.inverted());
+        }
+        !self.done.inverted().any()
     }
 }
