@@ -228,7 +228,7 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         let facts = self.problem.facts();
         let joints = joints::<M, W>(&facts, &self.at, self.are_ordinary());
         if self.problem.facts().nearby.is_some() {
-            let approaches = Approaches::new::<W>(&self.problem, &self.at, self.waiting);
+            let approaches = Approaches::new::<W>(&self.problem, &self.at, self.found.as_ref(), self.waiting);
             return self.flush_nearby(&joints, &approaches);
         }
         let twins = self.twins::<W>();

@@ -1,9 +1,9 @@
 //! Newton steps from a candidate of a nearby mechanism's formulas to the solution next to it: [`Problem::approached`], and [`Approaches`] for several candidates.
 
 use crate::counters::{Event, Phase};
-use crate::effort::{APPROACHES, CHORD, TURN};
+use crate::effort::{APPROACHES, CHORD, DOUBTFUL, INVERSIONS, MILD, STEEP, TURN, TWIN, TWIN_AT, TWIN_WITHIN};
 use crate::lanes::{Lanes, Mask};
-use crate::mechanism::{Abreast, Joint, Joints, Mechanism, Parameters, Places, Shorts};
+use crate::mechanism::{Abreast, Found, Joint, Joints, Mechanism, Parameters, Places, Shorts};
 use crate::number::{Number, With};
 use crate::problem::{Fit, Problem, everywhere, fit};
 use crate::storage::Array;
@@ -20,6 +20,8 @@ pub(crate) struct Approach<M: Mechanism> {
     pub missed: f64,
     /// The least pivot of the normal equations at the candidate, relative to their size.
     pub pivot: f64,
+    /// Whether a second solution may be near where a pivot is small.
+    pub is_doubled: bool,
 }
 
 impl<M: Mechanism> Problem<'_, M> {
@@ -50,7 +52,7 @@ impl<M: Mechanism> Problem<'_, M> {
                 let fit = if is_near { self.measure_at(&at, &end) } else { continue };
                 if fit.relative < ACCEPTANCE.rounding {
                     let (missed, pivot) = first?;
-                    return fit.accepted.then_some(Approach { end, fit, missed, pivot });
+                    return fit.accepted.then_some(Approach { end, fit, missed, pivot, is_doubled: true });
                 }
             }
         }
@@ -119,6 +121,8 @@ struct Normal<M: Mechanism, N: Number> {
     inverse: Joints<M, N>,
     /// The least pivot, relative to the size of the equations.
     pivot: N,
+    /// The largest pivot.
+    most: N,
 }
 
 impl<M: Mechanism, N: Number> Normal<M, N> {
@@ -128,7 +132,7 @@ impl<M: Mechanism, N: Number> Normal<M, N> {
         let none = N::of(0.0);
         let mut square: Joints<M, Joints<M, N>> = Array::by(joints, |_| Array::by(joints, |_| none));
         let mut inverse: Joints<M, N> = Array::by(joints, |_| none);
-        let (mut size, mut least) = (none, N::of(f64::INFINITY));
+        let (mut size, mut least, mut most) = (none, N::of(f64::INFINITY), none);
         for i in 0..joints {
             for j in 0..=i {
                 square.as_mut()[i].as_mut()[j] = dot::<M, N>(&columns.as_ref()[i], &columns.as_ref()[j]);
@@ -139,7 +143,7 @@ impl<M: Mechanism, N: Number> Normal<M, N> {
         for k in 0..joints {
             let pivot = rows[k].as_ref()[k];
             *sound = sound.where_below(size * PIVOTS.regular - pivot, 0.0);
-            least = least.lesser(pivot);
+            (least, most) = (least.lesser(pivot), most.greater(pivot));
             inverse.as_mut()[k] = N::of(1.0) / pivot;
             for i in k + 1..joints {
                 let factor = rows[i].as_ref()[k] * inverse.as_ref()[k];
@@ -149,15 +153,20 @@ impl<M: Mechanism, N: Number> Normal<M, N> {
                 }
             }
         }
-        Normal { columns, square, inverse, pivot: least / size }
+        Normal { columns, square, inverse, pivot: least / size, most }
     }
 
     /// The step `(J^T J)^-1 J^T f`.
     #[inline(always)]
     fn step(&self, value: &Shorts<M, N>) -> Joints<M, N> {
+        self.solved(Array::by(self.inverse.as_ref().len(), |i| dot::<M, N>(&self.columns.as_ref()[i], value)))
+    }
+
+    /// `(J^T J)^-1` times a vector.
+    #[inline(always)]
+    fn solved(&self, mut step: Joints<M, N>) -> Joints<M, N> {
         let (square, inverse) = (self.square.as_ref(), self.inverse.as_ref());
         let joints = inverse.len();
-        let mut step: Joints<M, N> = Array::by(joints, |i| dot::<M, N>(&self.columns.as_ref()[i], value));
         let delta = step.as_mut();
         for k in 0..joints {
             for i in k + 1..joints {
@@ -181,12 +190,19 @@ pub(crate) struct Approaches<M: Mechanism> {
     missed: Abreast<M>,
     pivot: Abreast<M>,
     pub sound: Abreast<M>,
+    /// Where a second solution may be near: 1, else 0.
+    doubled: Abreast<M>,
 }
 
 impl<M: Mechanism> Approaches<M> {
     /// Takes the steps for the first `waiting` candidates, `W` at once. The result of one does not depend on the others.
     #[inline(always)]
-    pub fn new<const W: usize>(problem: &Problem<'_, M>, at: &Places<M, Abreast<M>>, waiting: usize) -> Self {
+    pub fn new<const W: usize>(
+        problem: &Problem<'_, M>,
+        at: &Places<M, Abreast<M>>,
+        found: &[Found],
+        waiting: usize,
+    ) -> Self {
         let _phase = Phase::Waiting.begin();
         let (joints, room) = (problem.joints(), problem.facts().candidates);
         let none = || Array::by(room, |_| 0.0);
@@ -197,18 +213,26 @@ impl<M: Mechanism> Approaches<M> {
             missed: none(),
             pivot: none(),
             sound: none(),
+            doubled: none(),
         };
         let p = everywhere::<M, W>(problem);
         for first in (0..waiting.min(room)).step_by(W) {
             let none = Mask(core::array::from_fn(|lane| if first + lane < waiting { 0 } else { !0 }));
-            approaches.write(first, &lead(problem.mechanism, &p, abreast::<M, W>(at, first, 1), none));
+            let ends = lead(problem.mechanism, &p, abreast::<M, W>(at, first, 1), none);
+            approaches.write(first, &ends);
+            let most = Lanes(core::array::from_fn(|lane| if found[first + lane].close { STEEP } else { MILD }));
+            let is_steep = (ends.missed * most).exceeds(ends.pivot) & none.inverted();
+            if is_steep.any() {
+                let doubled = is_doubled(problem.mechanism, &p, &ends);
+                approaches.doubled.as_mut()[first..first + W].copy_from_slice(&doubled.0);
+            }
         }
         approaches
     }
 
     #[inline(always)]
     fn write<const W: usize>(&mut self, first: usize, ends: &Ends<M, W>) {
-        let Approaches { steps, residual, relative, missed, pivot, sound } = self;
+        let Approaches { steps, residual, relative, missed, pivot, sound, .. } = self;
         let write = |row: &mut Abreast<M>, lanes: &Lanes<W>| row.as_mut()[first..first + W].copy_from_slice(&lanes.0);
         steps.as_mut().iter_mut().zip(ends.steps.as_ref()).for_each(|(row, lanes)| write(row, lanes));
         write(residual, &ends.residual);
@@ -226,7 +250,8 @@ impl<M: Mechanism> Approaches<M> {
         });
         let (residual, relative) = (self.residual.as_ref()[k], self.relative.as_ref()[k]);
         let fit = Fit { residual, relative, accepted: true };
-        Approach { end, fit, missed: self.missed.as_ref()[k], pivot: self.pivot.as_ref()[k] }
+        let (missed, pivot) = (self.missed.as_ref()[k], self.pivot.as_ref()[k]);
+        Approach { end, fit, missed, pivot, is_doubled: self.doubled.as_ref()[k] > 0.0 }
     }
 }
 
@@ -246,6 +271,7 @@ pub(crate) fn abreast<M: Mechanism, const W: usize>(
 
 /// The ends of Newton steps from several candidates, each as in [`Approaches`].
 pub(crate) struct Ends<M: Mechanism, const W: usize> {
+    here: Places<M, Lanes<W>>,
     pub steps: Joints<M, Lanes<W>>,
     pub residual: Lanes<W>,
     pub relative: Lanes<W>,
@@ -265,9 +291,10 @@ pub(crate) fn lead<M: Mechanism, const W: usize>(
     let joints = mechanism.facts().joints;
     let zero = Lanes([0.0; W]);
     let zeros: Joints<M, Lanes<W>> = Array::by(joints.len(), |_| zero);
-    let mut walkers = Walkers::<M, W> { here, steps: zeros.clone(), sound: Lanes([1.0; W]), done: none };
-    let mut ends =
-        Ends { steps: zeros.clone(), residual: zero, relative: zero, missed: zero, pivot: zero, sound: zero };
+    let mut ends: Ends<M, W> =
+        Ends { here, steps: zeros.clone(), residual: zero, relative: zero, missed: zero, pivot: zero, sound: zero };
+    let mut walkers =
+        Walkers::<M, W> { here: ends.here.clone(), steps: zeros.clone(), sound: Lanes([1.0; W]), done: none };
     walkers.step_back(joints, &zeros);
     for round in 0..APPROACHES {
         Event::Short.count();
@@ -288,6 +315,60 @@ pub(crate) fn lead<M: Mechanism, const W: usize>(
         }
     }
     ends
+}
+
+/// Where a second solution may be near the ends of Newton steps: 1, else 0. The estimate is that of [`crate::answers::Answers::arrive`] for a single candidate,
+/// with normal equations and a margin: where it is 0, that one finds no second solution and no self-motion.
+#[inline(always)]
+fn is_doubled<M: Mechanism, const W: usize>(
+    mechanism: &M,
+    p: &Parameters<M, Lanes<W>>,
+    ends: &Ends<M, W>,
+) -> Lanes<W> {
+    let (facts, one) = (mechanism.facts(), Lanes([1.0; W]));
+    let joints = facts.joints.len();
+    let mut regular = one;
+    let normal = Normal::<M, Lanes<W>>::new(mechanism.short(p, &ends.here).columns, joints, &mut regular);
+    let product = |a: &Joints<M, Lanes<W>>, b: &Joints<M, Lanes<W>>| {
+        a.as_ref().iter().zip(b.as_ref()).fold(Lanes([0.0; W]), |sum, (a, b)| sum + *a * *b)
+    };
+    let (mut still, mut square): (Joints<M, Lanes<W>>, _) = (Array::by(joints, |_| one), one);
+    for _ in 0..INVERSIONS {
+        let next = normal.solved(still.clone());
+        square = product(&still, &next) / product(&next, &next);
+        let longest = next.as_ref().iter().zip(facts.joints).fold(Lanes([0.0; W]), |longest, (delta, joint)| {
+            longest.greater(if joint.is_angle() { delta.abs() } else { delta.abs() / facts.scale })
+        });
+        still = Array::by(joints, |i| next.as_ref()[i] / longest);
+    }
+    let is_far = square.exceeds(ends.missed * normal.most * (DOUBTFUL * TWIN * DOUBTFUL * TWIN));
+    let nearby = ends.missed.root();
+    let ahead = nearby * TWIN_AT;
+    let back: Joints<M, Lanes<W>> = Array::by(joints, |i| -(ahead * still.as_ref()[i]));
+    let mut there = ends.here.clone();
+    turn_back::<M, Lanes<W>>(facts.joints, &mut there, &back);
+    let short = mechanism.short(p, &there);
+    let step = Normal::<M, Lanes<W>>::new(short.columns, joints, &mut regular).step(&short.value);
+    let arrived = ahead - product(&step, &still) / product(&still, &still);
+    let distance = 2.0 * ahead - ahead * ahead / arrived;
+    let is_off = distance.abs().exceeds(nearby * (DOUBTFUL * TWIN_WITHIN));
+    let is_alone = (is_far | is_off) & regular.exceeds(Lanes([0.0; W]));
+    Lanes([0.0; W]).or(one, is_alone)
+}
+
+/// Subtracts a step from cosines, sines and lengths.
+#[inline(always)]
+fn turn_back<M: Mechanism, N: Number>(joints: &[Joint], at: &mut Places<M, N>, step: &Joints<M, N>)
+where
+    f64: With<N>,
+{
+    let at = at.as_mut();
+    for (delta, joint) in step.as_ref().iter().zip(joints) {
+        match *joint {
+            Joint::Angle([c, s]) => [at[c], at[s]] = turned_back(*delta, [at[c], at[s]]).0,
+            Joint::Length(place) => at[place] = at[place] - *delta,
+        }
+    }
 }
 
 /// Newton iterations of several candidates side by side: for each its cosines and sines, the sum of its steps, whether its equations are regular and its steps
@@ -327,6 +408,7 @@ impl<M: Mechanism, const W: usize> Walkers<M, W> {
         if these.any() {
             let [residual, relative] = fit::<M, W>(mechanism, p, &self.here);
             let write = |end: &mut Lanes<W>, now: &Lanes<W>| *end = now.or(*end, these);
+            ends.here.as_mut().iter_mut().zip(self.here.as_ref()).for_each(|(end, now)| write(end, now));
             ends.steps.as_mut().iter_mut().zip(self.steps.as_ref()).for_each(|(end, now)| write(end, now));
             write(&mut ends.residual, &residual);
             write(&mut ends.relative, &relative);
