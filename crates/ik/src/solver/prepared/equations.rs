@@ -12,8 +12,6 @@ pub(super) struct Equations {
     memory: Memory,
     code: Code,
     results: Vec<u32>,
-    /// The values, if all are constants.
-    constants: Option<Vec<f64>>,
 }
 
 impl Equations {
@@ -35,10 +33,8 @@ impl Equations {
         let mut assembler = Assembler::new(program.parameters.len(), place_of);
         let demand = Demand::of_code(code, results.clone());
         let code = assembler.code(code, &demand);
-        let constant = |result: &Operand| if let Operand::Constant(value) = *result { Some(value) } else { None };
-        let constants = results.clone().into_iter().map(constant).collect();
         let results = results.into_iter().map(|&result| assembler.place(result)).collect();
-        Equations { memory: assembler.memory(), code, results, constants }
+        Equations { memory: assembler.memory(), code, results }
     }
 
     /// Runs the code and passes the results to `make`.
@@ -59,10 +55,7 @@ impl Equations {
     where
         f64: With<N>,
     {
-        match &self.constants {
-            Some(constants) => A::by(constants.len(), |index| N::of(constants[index])),
-            None => self.with(parameters, at, |results| A::by(self.results.len(), |index| results.at(index))),
-        }
+        self.with(parameters, at, |results| A::by(self.results.len(), |index| results.at(index)))
     }
 }
 
