@@ -320,11 +320,7 @@ pub(crate) fn lead<M: Mechanism, const W: usize>(
 /// Where a second solution may be near the ends of Newton steps: 1, else 0. The estimate is that of [`crate::answers::Answers::arrive`] for a single candidate,
 /// with normal equations and a margin: where it is 0, that one finds no second solution and no self-motion.
 #[inline(always)]
-fn is_doubled<M: Mechanism, const W: usize>(
-    mechanism: &M,
-    p: &Parameters<M, Lanes<W>>,
-    ends: &Ends<M, W>,
-) -> Lanes<W> {
+fn is_doubled<M: Mechanism, const W: usize>(mechanism: &M, p: &Parameters<M, Lanes<W>>, ends: &Ends<M, W>) -> Lanes<W> {
     let (facts, one) = (mechanism.facts(), Lanes([1.0; W]));
     let joints = facts.joints.len();
     let mut regular = one;
@@ -413,7 +409,8 @@ impl<M: Mechanism, const W: usize> Walkers<M, W> {
             write(&mut ends.residual, &residual);
             write(&mut ends.relative, &relative);
             write(&mut ends.sound, &self.sound);
-            let goes_on = self.sound.exceeds(Lanes([0.0; W])) & Lanes::of(ACCEPTANCE.rounding).exceeds(relative).inverted();
+            let goes_on =
+                self.sound.exceeds(Lanes([0.0; W])) & Lanes::of(ACCEPTANCE.rounding).exceeds(relative).inverted();
             self.done = self.done | (these & goes_on.inverted());
         }
         !self.done.inverted().any()

@@ -45,7 +45,8 @@ pub(crate) fn of_affine_at_once<M: Mechanism>(
     for first in (0..joints.len()).step_by(JOINTS) {
         let mut moved: Places<M, Lanes<{ 2 * JOINTS + 2 }>> = Array::by(at.len(), |i| Lanes::of(at[i]));
         for (lane, joint) in joints[first..].iter().take(JOINTS).enumerate() {
-            let mut set = |place: usize, along: f64| moved.as_mut()[place].0[2 * lane..][..2].copy_from_slice(&[along, 0.0]);
+            let mut set =
+                |place: usize, along: f64| moved.as_mut()[place].0[2 * lane..][..2].copy_from_slice(&[along, 0.0]);
             match *joint {
                 Joint::Angle([c, s]) => {
                     set(c, -at[s]);
