@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use crate::approach::{Approaches, LANES};
 use crate::effort::{MILD, STEEP};
-use crate::measure::{Fits, joints};
+use crate::measure::{Fits, joints, tell_apart};
 use crate::mechanism::{Abreast, Candidates, Facts, Found, Joint, Joints, Mechanism, Parameters, Places, elected};
 use crate::number::Guard;
 use crate::problem::{End, Fit, Problem};
@@ -391,16 +391,4 @@ impl<'a, M: Mechanism> Answers<'a, M> {
 #[inline(never)]
 fn walk<M: Mechanism>(mechanism: &M, parameters: &Parameters<M>, answers: &mut Answers<'_, M>) {
     mechanism.walk(parameters, answers);
-}
-
-/// Whether two solutions differ in at least one angle.
-#[inline(always)]
-fn tell_apart<M: Mechanism>(facts: &Facts<'_>, a: &Joints<M, [f64; 2]>, b: &Joints<M, [f64; 2]>) -> bool {
-    let (a, b) = (a.as_ref(), b.as_ref());
-    for &i in facts.last_first {
-        if facts.joints[i].is_angle() && a[i][0] * b[i][0] + a[i][1] * b[i][1] < FAR_APART {
-            return true;
-        }
-    }
-    false
 }
