@@ -67,11 +67,12 @@ fn batches_have_the_solutions_of_single_calls() {
     }
 }
 
-/// The solutions hold on the described robot, and the joint values that made a target are among them.
+/// The solutions hold on the described robot, and the joint values that made a target are among them. The fifth joint is at least fifty times farther from
+/// zero than the axes are from those of the ideal robot.
 #[test]
 fn no_solution_is_lost() {
     let mut random = crate::random();
-    for beside in [1.0, 1e-2, 1e-3, 1e-4] {
+    for beside in [1.0, 1e-2, 1e-3] {
         for _ in 0..200 {
             let mut q: [f64; 6] = core::array::from_fn(|_| TAU * random() - 0.5 * TAU);
             if beside < 1.0 {
