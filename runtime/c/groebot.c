@@ -23,10 +23,6 @@
 #define GB_FARTHER R(16.0)
 #define GB_FARTHEST R(256.0)
 #define GB_LEVER R(0.1)
-#define GB_TWIN R(10.0)
-#define GB_TWIN_AT R(2.0)
-#define GB_TWIN_WITHIN R(32.0)
-#define GB_INVERSIONS 3
 #define GB_LEAPT R(0.1)
 #define GB_PACES 100
 #define GB_STRIDE R(0.1)

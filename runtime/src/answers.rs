@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use crate::approach::{Approaches, LANES};
 use crate::effort::{MILD, STEEP};
-use crate::measure::{Fits, joints};
+use crate::measure::{Fits, joints, tell_apart};
 use crate::mechanism::{Abreast, Candidates, Facts, Found, Joint, Joints, Mechanism, Parameters, Places, elected};
 use crate::number::Guard;
 use crate::problem::{End, Fit, Problem};
@@ -191,9 +191,17 @@ impl<'a, M: Mechanism> Answers<'a, M> {
     #[allow(unsafe_code)]
     pub fn flush(&mut self) {
         #[cfg(all(target_arch = "x86_64", feature = "std"))]
-        if self.problem.facts().candidates.is_multiple_of(4) && std::is_x86_feature_detected!("avx2") {
-            // SAFETY: the processor supports the target feature of the function.
-            return unsafe { self.flush_by_4() };
+        {
+            let Facts { candidates, nearby, .. } = self.problem.facts();
+            let are_led = nearby.is_some() && candidates.is_multiple_of(8);
+            if are_led && std::is_x86_feature_detected!("avx512f") {
+                // SAFETY: the processor supports the target feature of the function.
+                return unsafe { self.flush_by_8() };
+            }
+            if candidates.is_multiple_of(4) && std::is_x86_feature_detected!("avx2") {
+                // SAFETY: as above.
+                return unsafe { self.flush_by_4() };
+            }
         }
         self.flush_by::<LANES>();
     }
@@ -205,6 +213,12 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         self.flush_by::<4>();
     }
 
+    #[cfg(all(target_arch = "x86_64", feature = "std"))]
+    #[target_feature(enable = "avx512f")]
+    fn flush_by_8(&mut self) {
+        self.flush_by::<8>();
+    }
+
     /// Processes `W` waiting candidates at a time.
     #[inline(always)]
     fn flush_by<const W: usize>(&mut self) {
@@ -214,7 +228,7 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         let facts = self.problem.facts();
         let joints = joints::<M, W>(&facts, &self.at, self.are_ordinary());
         if self.problem.facts().nearby.is_some() {
-            let approaches = Approaches::new::<W>(&self.problem, &self.at, self.waiting);
+            let approaches = Approaches::new::<W>(&self.problem, &self.at, self.found.as_ref(), self.waiting);
             return self.flush_nearby(&joints, &approaches);
         }
         let twins = self.twins::<W>();
@@ -382,16 +396,4 @@ pub(crate) fn are_apart<M: Mechanism>(facts: &Facts<'_>, at: &Places<M, Abreast<
 #[inline(never)]
 fn walk<M: Mechanism>(mechanism: &M, parameters: &Parameters<M>, answers: &mut Answers<'_, M>) {
     mechanism.walk(parameters, answers);
-}
-
-/// Whether two solutions differ in at least one angle.
-#[inline(always)]
-fn tell_apart<M: Mechanism>(facts: &Facts<'_>, a: &Joints<M, [f64; 2]>, b: &Joints<M, [f64; 2]>) -> bool {
-    let (a, b) = (a.as_ref(), b.as_ref());
-    for &i in facts.last_first {
-        if facts.joints[i].is_angle() && a[i][0] * b[i][0] + a[i][1] * b[i][1] < FAR_APART {
-            return true;
-        }
-    }
-    false
 }

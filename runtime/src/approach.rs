@@ -1,13 +1,14 @@
 //! Newton steps from a candidate of a nearby mechanism's formulas to the solution next to it: [`Problem::approached`], and [`Approaches`] for several candidates.
 
 use crate::counters::{Event, Phase};
-use crate::effort::{APPROACHES, TURN};
-use crate::lanes::Lanes;
-use crate::mechanism::{Abreast, Joint, Joints, Mechanism, Parameters, Places, Shorts};
+use crate::effort::{APPROACHES, CHORD, DOUBTFUL, INVERSIONS, MILD, STEEP, TURN, TWIN, TWIN_AT, TWIN_WITHIN};
+use crate::lanes::{Lanes, Mask};
+use crate::mechanism::{Abreast, Found, Joint, Joints, Mechanism, Parameters, Places, Shorts};
+use crate::normal::Normal;
 use crate::number::{Number, With};
 use crate::problem::{Fit, Problem, everywhere, fit};
 use crate::storage::Array;
-use crate::tolerances::{ACCEPTANCE, PIVOTS, POLISHING};
+use crate::tolerances::ACCEPTANCE;
 use crate::trigonometry::{cosine_and_sine, in_turn};
 
 /// The end of the Newton steps from a candidate.
@@ -20,6 +21,8 @@ pub(crate) struct Approach<M: Mechanism> {
     pub missed: f64,
     /// The least pivot of the normal equations at the candidate, relative to their size.
     pub pivot: f64,
+    /// Whether a second solution may be near where a pivot is small.
+    pub is_doubled: bool,
 }
 
 impl<M: Mechanism> Problem<'_, M> {
@@ -41,15 +44,16 @@ impl<M: Mechanism> Problem<'_, M> {
             let missed = missed_by::<M, f64>(&here.value, &here.size);
             first = first.or(Some((missed, normal.pivot)));
             let mut value = here.value;
-            for second in 0..if missed > POLISHING.chord { 1 } else { 2 } {
-                if second > 0 {
-                    value = self.mechanism.short(self.parameters, &at).value;
+            for second in [false, true] {
+                if second {
+                    value = self.mechanism.short_value(self.parameters, &at);
                 }
                 self.step_back(&normal.step(&value), &mut at, &mut end)?;
-                let fit = self.measure_at(&at, &end);
+                let is_near = second || missed <= CHORD;
+                let fit = if is_near { self.measure_at(&at, &end) } else { continue };
                 if fit.relative < ACCEPTANCE.rounding {
                     let (missed, pivot) = first?;
-                    return fit.accepted.then_some(Approach { end, fit, missed, pivot });
+                    return fit.accepted.then_some(Approach { end, fit, missed, pivot, is_doubled: true });
                 }
             }
         }
@@ -105,72 +109,6 @@ fn missed_by<M: Mechanism, N: Number>(value: &Shorts<M, N>, size: &Shorts<M, N>)
     shares.fold(N::of(0.0), |missed, (value, size)| missed.greater(value.abs() / size.max(N::of(f64::MIN_POSITIVE))))
 }
 
-#[inline(always)]
-fn dot<M: Mechanism, N: Number>(a: &Shorts<M, N>, b: &Shorts<M, N>) -> N {
-    a.as_ref().iter().zip(b.as_ref()).fold(N::of(0.0), |sum, (a, b)| sum + *a * *b)
-}
-
-/// Normal equations `J^T J`, eliminated without pivoting.
-struct Normal<M: Mechanism, N: Number> {
-    columns: Joints<M, Shorts<M, N>>,
-    /// The factors of the elimination are below the diagonal.
-    square: Joints<M, Joints<M, N>>,
-    inverse: Joints<M, N>,
-    /// The least pivot, relative to the size of the equations.
-    pivot: N,
-}
-
-impl<M: Mechanism, N: Number> Normal<M, N> {
-    /// The normal equations of these derivatives by each joint. `sound` becomes zero where a pivot is small.
-    #[inline(always)]
-    fn new(columns: Joints<M, Shorts<M, N>>, joints: usize, sound: &mut N) -> Self {
-        let none = N::of(0.0);
-        let mut square: Joints<M, Joints<M, N>> = Array::by(joints, |_| Array::by(joints, |_| none));
-        let mut inverse: Joints<M, N> = Array::by(joints, |_| none);
-        let (mut size, mut least) = (none, N::of(f64::INFINITY));
-        for i in 0..joints {
-            for j in 0..=i {
-                square.as_mut()[i].as_mut()[j] = dot::<M, N>(&columns.as_ref()[i], &columns.as_ref()[j]);
-            }
-            size = size.greater(square.as_ref()[i].as_ref()[i]);
-        }
-        let rows = square.as_mut();
-        for k in 0..joints {
-            let pivot = rows[k].as_ref()[k];
-            *sound = sound.where_below(size * PIVOTS.regular - pivot, 0.0);
-            least = least.lesser(pivot);
-            inverse.as_mut()[k] = N::of(1.0) / pivot;
-            for i in k + 1..joints {
-                let factor = rows[i].as_ref()[k] * inverse.as_ref()[k];
-                for j in k + 1..=i {
-                    let taken = factor * rows[j].as_ref()[k];
-                    rows[i].as_mut()[j] = rows[i].as_ref()[j] - taken;
-                }
-            }
-        }
-        Normal { columns, square, inverse, pivot: least / size }
-    }
-
-    /// The step `(J^T J)^-1 J^T f`.
-    #[inline(always)]
-    fn step(&self, value: &Shorts<M, N>) -> Joints<M, N> {
-        let (square, inverse) = (self.square.as_ref(), self.inverse.as_ref());
-        let joints = inverse.len();
-        let mut step: Joints<M, N> = Array::by(joints, |i| dot::<M, N>(&self.columns.as_ref()[i], value));
-        let delta = step.as_mut();
-        for k in 0..joints {
-            for i in k + 1..joints {
-                delta[i] = delta[i] - square[i].as_ref()[k] * inverse[k] * delta[k];
-            }
-        }
-        for k in (0..joints).rev() {
-            let above = (k + 1..joints).fold(delta[k], |sum, j| sum - square[j].as_ref()[k] * delta[j]);
-            delta[k] = above * inverse[k];
-        }
-        step
-    }
-}
-
 /// Newton steps of several candidates: their sums, the residuals at their ends, and the relative residuals and least pivots at the candidates. `sound` is 1
 /// where the equations are regular and the steps short, else 0.
 pub(crate) struct Approaches<M: Mechanism> {
@@ -180,12 +118,19 @@ pub(crate) struct Approaches<M: Mechanism> {
     missed: Abreast<M>,
     pivot: Abreast<M>,
     pub sound: Abreast<M>,
+    /// Where a second solution may be near: 1, else 0.
+    doubled: Abreast<M>,
 }
 
 impl<M: Mechanism> Approaches<M> {
-    /// Takes the steps for the first `waiting` candidates, `W` at once.
+    /// Takes the steps for the first `waiting` candidates, `W` at once. The result of one does not depend on the others.
     #[inline(always)]
-    pub fn new<const W: usize>(problem: &Problem<'_, M>, at: &Places<M, Abreast<M>>, waiting: usize) -> Self {
+    pub fn new<const W: usize>(
+        problem: &Problem<'_, M>,
+        at: &Places<M, Abreast<M>>,
+        found: &[Found],
+        waiting: usize,
+    ) -> Self {
         let _phase = Phase::Waiting.begin();
         let (joints, room) = (problem.joints(), problem.facts().candidates);
         let none = || Array::by(room, |_| 0.0);
@@ -196,84 +141,33 @@ impl<M: Mechanism> Approaches<M> {
             missed: none(),
             pivot: none(),
             sound: none(),
+            doubled: none(),
         };
         let p = everywhere::<M, W>(problem);
         for first in (0..waiting.min(room)).step_by(W) {
-            approaches.run(problem, &p, at, first, waiting);
+            let none = Mask(core::array::from_fn(|lane| if first + lane < waiting { 0 } else { !0 }));
+            let ends = lead(problem.mechanism, &p, abreast::<M, W>(at, first, 1), none);
+            approaches.write(first, &ends);
+            let most = Lanes(core::array::from_fn(|lane| if found[first + lane].close { STEEP } else { MILD }));
+            let is_steep = (ends.missed * most).exceeds(ends.pivot) & none.inverted();
+            if is_steep.any() {
+                let doubled = is_doubled(problem.mechanism, &p, &ends);
+                approaches.doubled.as_mut()[first..first + W].copy_from_slice(&doubled.0);
+            }
         }
         approaches
     }
 
-    /// Takes the steps for `W` candidates. The result of one does not depend on the others.
     #[inline(always)]
-    fn run<const W: usize>(
-        &mut self,
-        problem: &Problem<'_, M>,
-        p: &Parameters<M, Lanes<W>>,
-        at: &Places<M, Abreast<M>>,
-        first: usize,
-        waiting: usize,
-    ) {
-        let joints = problem.joints();
-        let mut walkers = Walkers::<M, W> {
-            here: abreast::<M, W>(at, first, 1),
-            steps: Array::by(joints, |_| Lanes([0.0; W])),
-            sound: Lanes([1.0; W]),
-            are_done: core::array::from_fn(|lane| first + lane >= waiting),
-        };
-        let stay = walkers.steps.clone();
-        walkers.step_back(problem, &stay);
-        for round in 0..APPROACHES {
-            Event::Short.count();
-            let short = problem.mechanism.short(p, &walkers.here);
-            let missed = missed_by::<M, Lanes<W>>(&short.value, &short.size);
-            let normal = Normal::<M, Lanes<W>>::new(short.columns, joints, &mut walkers.sound);
-            if round == 0 {
-                for lane in (0..W).filter(|lane| !walkers.are_done[*lane]) {
-                    self.missed.as_mut()[first + lane] = missed.0[lane];
-                    self.pivot.as_mut()[first + lane] = normal.pivot.0[lane];
-                }
-            }
-            walkers.step_back(problem, &normal.step(&short.value));
-            if self.write(problem, p, first, &mut walkers) {
-                return;
-            }
-            // The first candidate is representative of all.
-            if self.missed.as_ref()[0] > POLISHING.chord {
-                continue;
-            }
-            let value = problem.mechanism.short(p, &walkers.here).value;
-            walkers.step_back(problem, &normal.step(&value));
-            if self.write(problem, p, first, &mut walkers) {
-                return;
-            }
-        }
-    }
-
-    /// Writes the results of the candidates that were not finished before, and returns whether all are finished.
-    #[inline(always)]
-    fn write<const W: usize>(
-        &mut self,
-        problem: &Problem<'_, M>,
-        p: &Parameters<M, Lanes<W>>,
-        first: usize,
-        walkers: &mut Walkers<M, W>,
-    ) -> bool {
-        let [residual, relative] = fit::<M, W>(problem.mechanism, p, &walkers.here);
-        for lane in 0..W {
-            if walkers.are_done[lane] {
-                continue;
-            }
-            let k = first + lane;
-            for (all, steps) in self.steps.as_mut().iter_mut().zip(walkers.steps.as_ref()) {
-                all.as_mut()[k] = steps.0[lane];
-            }
-            (self.residual.as_mut()[k], self.relative.as_mut()[k]) = (residual.0[lane], relative.0[lane]);
-            self.sound.as_mut()[k] = walkers.sound.0[lane];
-            let is_sound = walkers.sound.0[lane] > 0.0;
-            walkers.are_done[lane] = !is_sound || relative.0[lane] < ACCEPTANCE.rounding;
-        }
-        walkers.are_done.iter().all(|is_done| *is_done)
+    fn write<const W: usize>(&mut self, first: usize, ends: &Ends<M, W>) {
+        let Approaches { steps, residual, relative, missed, pivot, sound, .. } = self;
+        let write = |row: &mut Abreast<M>, lanes: &Lanes<W>| row.as_mut()[first..first + W].copy_from_slice(&lanes.0);
+        steps.as_mut().iter_mut().zip(ends.steps.as_ref()).for_each(|(row, lanes)| write(row, lanes));
+        write(residual, &ends.residual);
+        write(relative, &ends.relative);
+        write(missed, &ends.missed);
+        write(pivot, &ends.pivot);
+        write(sound, &ends.sound);
     }
 
     /// The result for the candidate with index `k`, which begins at `q`.
@@ -284,7 +178,8 @@ impl<M: Mechanism> Approaches<M> {
         });
         let (residual, relative) = (self.residual.as_ref()[k], self.relative.as_ref()[k]);
         let fit = Fit { residual, relative, accepted: true };
-        Approach { end, fit, missed: self.missed.as_ref()[k], pivot: self.pivot.as_ref()[k] }
+        let (missed, pivot) = (self.missed.as_ref()[k], self.pivot.as_ref()[k]);
+        Approach { end, fit, missed, pivot, is_doubled: self.doubled.as_ref()[k] > 0.0 }
     }
 }
 
@@ -302,21 +197,119 @@ pub(crate) fn abreast<M: Mechanism, const W: usize>(
     Array::by(rows.len(), |i| Lanes(core::array::from_fn(|lane| rows[i].as_ref()[first + lane * stride])))
 }
 
+/// The ends of Newton steps from several candidates, each as in [`Approaches`].
+pub(crate) struct Ends<M: Mechanism, const W: usize> {
+    here: Places<M, Lanes<W>>,
+    pub steps: Joints<M, Lanes<W>>,
+    pub residual: Lanes<W>,
+    pub relative: Lanes<W>,
+    pub missed: Lanes<W>,
+    pub pivot: Lanes<W>,
+    pub sound: Lanes<W>,
+}
+
+/// Takes Newton steps from candidates with these cosines and sines, except where there is `none`. The result of one does not depend on the others.
+#[inline(always)]
+pub(crate) fn lead<M: Mechanism, const W: usize>(
+    mechanism: &M,
+    p: &Parameters<M, Lanes<W>>,
+    here: Places<M, Lanes<W>>,
+    none: Mask<W>,
+) -> Ends<M, W> {
+    let joints = mechanism.facts().joints;
+    let zero = Lanes([0.0; W]);
+    let zeros: Joints<M, Lanes<W>> = Array::by(joints.len(), |_| zero);
+    let mut ends: Ends<M, W> =
+        Ends { here, steps: zeros.clone(), residual: zero, relative: zero, missed: zero, pivot: zero, sound: zero };
+    let mut walkers =
+        Walkers::<M, W> { here: ends.here.clone(), steps: zeros.clone(), sound: Lanes([1.0; W]), done: none };
+    walkers.step_back(joints, &zeros);
+    for round in 0..APPROACHES {
+        Event::Short.count();
+        let short = mechanism.short(p, &walkers.here);
+        let missed = missed_by::<M, Lanes<W>>(&short.value, &short.size);
+        let normal = Normal::<M, Lanes<W>>::new(short.columns, joints.len(), &mut walkers.sound);
+        if round == 0 {
+            (ends.missed, ends.pivot) = (missed, normal.pivot);
+        }
+        walkers.step_back(joints, &normal.step(&short.value));
+        if walkers.write(mechanism, p, missed.at_most(Lanes::of(CHORD)), &mut ends) {
+            break;
+        }
+        let value = mechanism.short_value(p, &walkers.here);
+        walkers.step_back(joints, &normal.step(&value));
+        if walkers.write(mechanism, p, Mask([!0; W]), &mut ends) {
+            break;
+        }
+    }
+    ends
+}
+
+/// Where a second solution may be near the ends of Newton steps: 1, else 0. The estimate is that of [`crate::answers::Answers::arrive`] for a single candidate,
+/// with normal equations and a margin: where it is 0, that one finds no second solution and no self-motion.
+#[inline(always)]
+fn is_doubled<M: Mechanism, const W: usize>(mechanism: &M, p: &Parameters<M, Lanes<W>>, ends: &Ends<M, W>) -> Lanes<W> {
+    let (facts, one) = (mechanism.facts(), Lanes([1.0; W]));
+    let joints = facts.joints.len();
+    let mut regular = one;
+    let normal = Normal::<M, Lanes<W>>::new(mechanism.short(p, &ends.here).columns, joints, &mut regular);
+    let product = |a: &Joints<M, Lanes<W>>, b: &Joints<M, Lanes<W>>| {
+        a.as_ref().iter().zip(b.as_ref()).fold(Lanes([0.0; W]), |sum, (a, b)| sum + *a * *b)
+    };
+    let (mut still, mut square): (Joints<M, Lanes<W>>, _) = (Array::by(joints, |_| one), one);
+    for _ in 0..INVERSIONS {
+        let next = normal.solved(still.clone());
+        square = product(&still, &next) / product(&next, &next);
+        let longest = next.as_ref().iter().zip(facts.joints).fold(Lanes([0.0; W]), |longest, (delta, joint)| {
+            longest.greater(if joint.is_angle() { delta.abs() } else { delta.abs() / facts.scale })
+        });
+        still = Array::by(joints, |i| next.as_ref()[i] / longest);
+    }
+    let is_far = square.exceeds(ends.missed * normal.most * (DOUBTFUL * TWIN * DOUBTFUL * TWIN));
+    let nearby = ends.missed.root();
+    let ahead = nearby * TWIN_AT;
+    let back: Joints<M, Lanes<W>> = Array::by(joints, |i| -(ahead * still.as_ref()[i]));
+    let mut there = ends.here.clone();
+    turn_back::<M, Lanes<W>>(facts.joints, &mut there, &back);
+    let short = mechanism.short(p, &there);
+    let step = Normal::<M, Lanes<W>>::new(short.columns, joints, &mut regular).step(&short.value);
+    let arrived = ahead - product(&step, &still) / product(&still, &still);
+    let distance = 2.0 * ahead - ahead * ahead / arrived;
+    let is_off = distance.abs().exceeds(nearby * (DOUBTFUL * TWIN_WITHIN));
+    let is_alone = (is_far | is_off) & regular.exceeds(Lanes([0.0; W]));
+    Lanes([0.0; W]).or(one, is_alone)
+}
+
+/// Subtracts a step from cosines, sines and lengths.
+#[inline(always)]
+fn turn_back<M: Mechanism, N: Number>(joints: &[Joint], at: &mut Places<M, N>, step: &Joints<M, N>)
+where
+    f64: With<N>,
+{
+    let at = at.as_mut();
+    for (delta, joint) in step.as_ref().iter().zip(joints) {
+        match *joint {
+            Joint::Angle([c, s]) => [at[c], at[s]] = turned_back(*delta, [at[c], at[s]]).0,
+            Joint::Length(place) => at[place] = at[place] - *delta,
+        }
+    }
+}
+
 /// Newton iterations of several candidates side by side: for each its cosines and sines, the sum of its steps, whether its equations are regular and its steps
 /// short (1, else 0), and whether it is finished.
 struct Walkers<M: Mechanism, const W: usize> {
     here: Places<M, Lanes<W>>,
     steps: Joints<M, Lanes<W>>,
     sound: Lanes<W>,
-    are_done: [bool; W],
+    done: Mask<W>,
 }
 
 impl<M: Mechanism, const W: usize> Walkers<M, W> {
     /// Same as [`Problem::step_back`]. A candidate with a long step, or with a pair far from the unit circle, becomes unsound.
     #[inline(always)]
-    fn step_back(&mut self, problem: &Problem<'_, M>, step: &Joints<M, Lanes<W>>) {
+    fn step_back(&mut self, joints: &[Joint], step: &Joints<M, Lanes<W>>) {
         let at = self.here.as_mut();
-        for (delta, joint) in step.as_ref().iter().zip(problem.facts().joints) {
+        for (delta, joint) in step.as_ref().iter().zip(joints) {
             match *joint {
                 Joint::Angle([c, s]) => {
                     let (pair, norm) = turned_back(*delta, [at[c], at[s]]);
@@ -330,5 +323,24 @@ impl<M: Mechanism, const W: usize> Walkers<M, W> {
             }
         }
         self.steps.as_mut().iter_mut().zip(step.as_ref()).for_each(|(sum, step)| *sum = *sum + *step);
+    }
+
+    /// Writes the results of the given candidates that were not finished before, and returns whether all candidates are finished: each has converged or failed.
+    #[inline(always)]
+    fn write(&mut self, mechanism: &M, p: &Parameters<M, Lanes<W>>, these: Mask<W>, ends: &mut Ends<M, W>) -> bool {
+        let these = these & self.done.inverted();
+        if these.any() {
+            let [residual, relative] = fit::<M, W>(mechanism, p, &self.here);
+            let write = |end: &mut Lanes<W>, now: &Lanes<W>| *end = now.or(*end, these);
+            ends.here.as_mut().iter_mut().zip(self.here.as_ref()).for_each(|(end, now)| write(end, now));
+            ends.steps.as_mut().iter_mut().zip(self.steps.as_ref()).for_each(|(end, now)| write(end, now));
+            write(&mut ends.residual, &residual);
+            write(&mut ends.relative, &relative);
+            write(&mut ends.sound, &self.sound);
+            let goes_on =
+                self.sound.exceeds(Lanes([0.0; W])) & Lanes::of(ACCEPTANCE.rounding).exceeds(relative).inverted();
+            self.done = self.done | (these & goes_on.inverted());
+        }
+        !self.done.inverted().any()
     }
 }

@@ -2,8 +2,9 @@
 
 use crate::angles::{acute, unfold};
 use crate::answers::FAR_APART;
+use crate::approach::lead;
 use crate::conditions::fulfil;
-use crate::effort::MOST_STEPS;
+use crate::effort::{MILD, MOST_STEPS};
 use crate::lanes::{Lanes, Mask};
 use crate::mechanism::{
     Abreast, Answered, Candidates, Facts, Found, Inputs, Joint, Joints, Mechanism, Parameters, Places, elected,
@@ -16,6 +17,7 @@ use crate::solution::{Error, Pairs, Solution};
 use crate::steps::Steps;
 use crate::storage::Array;
 use crate::tolerances::ACCEPTANCE;
+use crate::trigonometry::in_turn;
 
 /// The output format of a solution: angles or pairs.
 pub(crate) trait Answer<M: Mechanism>: Clone {
@@ -284,7 +286,11 @@ impl<M: Mechanism, const W: usize> Bundle<M, W> {
         let p = mechanism.parameters(&target);
         (self.doubt, self.count) = (fine.inverted(), 0);
         mechanism.walk(&p, self);
-        self.measure(mechanism, facts, &p);
+        if facts.nearby.is_some() {
+            self.lead(mechanism, facts, &p, wants_angles);
+        } else {
+            self.measure(mechanism, facts, &p);
+        }
         self.tell_apart(facts);
         self.find_joints(facts, wants_angles);
     }
@@ -297,6 +303,28 @@ impl<M: Mechanism, const W: usize> Bundle<M, W> {
             self.residual.as_mut()[k..k + facts.twins].fill(residual);
             self.relative.as_mut()[k..k + facts.twins].fill(relative);
             let holds = Lanes::of(ACCEPTANCE.rounding).exceeds(relative);
+            self.doubt = self.doubt | holds.or_not(self.dead.as_ref()[k]);
+        }
+    }
+
+    /// Leads the candidates of a nearby mechanism's formulas to solutions by Newton steps, whose sums are written in place of the joint values. Marks targets
+    /// where this fails, or where the equations are so ill-conditioned that a second solution may be near.
+    #[inline(always)]
+    fn lead(&mut self, mechanism: &M, facts: &Facts<'_>, p: &Parameters<M, Lanes<W>>, wants_angles: bool) {
+        if !wants_angles || facts.has_extras {
+            self.doubt = Mask([!0; W]);
+        }
+        for k in 0..facts.candidates {
+            let none = self.dead.as_ref()[k] | self.doubt;
+            if !none.inverted().any() {
+                continue;
+            }
+            let ends = lead(mechanism, p, self.at.as_ref()[k].clone(), none);
+            self.q.as_mut()[k] = ends.steps;
+            self.residual.as_mut()[k] = ends.residual;
+            self.relative.as_mut()[k] = ends.relative;
+            let holds = Lanes::of(ACCEPTANCE.rounding).exceeds(ends.relative) & ends.sound.exceeds(Lanes::of(0.0));
+            let holds = holds & (ends.missed * MILD).at_most(ends.pivot);
             self.doubt = self.doubt | holds.or_not(self.dead.as_ref()[k]);
         }
     }
@@ -338,12 +366,16 @@ impl<M: Mechanism, const W: usize> Bundle<M, W> {
                             size = if wants_angles { acute(c.abs(), s.abs()) } else { size };
                         }
                         if wants_angles {
-                            q[k].as_mut()[i] = unfold(size, c, s);
+                            let angle = unfold(size, c, s);
+                            let led = |steps: Lanes<W>| Lanes((angle - steps).0.map(in_turn));
+                            let value = &mut q[k].as_mut()[i];
+                            *value = if facts.nearby.is_some() { led(*value) } else { angle };
                         }
                     }
                     Joint::Length(place) => {
                         let length = at[k].as_ref()[place];
-                        q[k].as_mut()[i] = length;
+                        let value = &mut q[k].as_mut()[i];
+                        *value = if facts.nearby.is_some() { length - *value } else { length };
                         sound = Lanes::of(f64::MAX).exceeds(length.abs());
                     }
                 }

@@ -42,6 +42,12 @@ pub const TWIN_WITHIN: f64 = 32.0;
 /// Maximal number of plain Newton steps from a candidate of a nearby mechanism's formulas to within `ACCEPTANCE.rounding`, each followed by a second one with
 /// equal derivatives. A candidate that needs more is polished with damping.
 pub const APPROACHES: usize = 3;
+/// Where the relative residual of a candidate is at most this, the first step usually leads to within `ACCEPTANCE.rounding`, and its end is measured. Elsewhere
+/// only the end of the second step is measured.
+pub const CHORD: f64 = 1e-8;
+/// Where the normal equations of several candidates at once show that a second solution is farther than this factor times [`TWIN_WITHIN`], or the equations
+/// change by more than this factor times [`TWIN`], the search for it is left out. The factor is for the difference between these estimates and exact ones.
+pub const DOUBTFUL: f64 = 2.0;
 /// A second solution is searched for where a pivot is less than this factor times the candidate's residual: four times the square of [`TWIN`].
 pub const STEEP: f64 = 400.0;
 /// The same factor where the formulas proposed other roots far from this one. Then each solution has a candidate, except for those that polishing moves far.

@@ -34,6 +34,7 @@ pub mod mechanism;
 mod members;
 mod nearest;
 mod newton;
+mod normal;
 pub mod number;
 mod order;
 pub mod ordinary;

@@ -3,6 +3,7 @@
 use core::array::from_fn;
 
 use crate::angles::{acute, unfold};
+use crate::answers::FAR_APART;
 use crate::approach::abreast;
 use crate::counters::Phase;
 use crate::lanes::Lanes;
@@ -99,4 +100,16 @@ fn find_angles<M: Mechanism, const W: usize>(cosines: &[f64], sines: &[f64], ali
         let own = Lanes(from_fn(|lane| acutes[(k + lane) >> alike]));
         angles[k..k + W].copy_from_slice(&unfold(own, pair(cosines), pair(sines)).0);
     }
+}
+
+/// Whether two solutions differ in at least one angle.
+#[inline(always)]
+pub(crate) fn tell_apart<M: Mechanism>(facts: &Facts<'_>, a: &Joints<M, [f64; 2]>, b: &Joints<M, [f64; 2]>) -> bool {
+    let (a, b) = (a.as_ref(), b.as_ref());
+    for &i in facts.last_first {
+        if facts.joints[i].is_angle() && a[i][0] * b[i][0] + a[i][1] * b[i][1] < FAR_APART {
+            return true;
+        }
+    }
+    false
 }

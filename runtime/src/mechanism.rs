@@ -95,6 +95,15 @@ pub trait Mechanism: Sized {
         let columns = Array::by(self.facts().joints.len(), |_| none());
         Short { value: none(), size: none(), columns }
     }
+
+    /// The values of [`Mechanism::short`] alone.
+    #[inline(always)]
+    fn short_value<N: Number>(&self, p: &Parameters<Self, N>, at: &Places<Self, N>) -> Shorts<Self, N>
+    where
+        f64: With<N>,
+    {
+        self.short(p, at).value
+    }
 }
 
 /// A minimal set of equations, equivalent to all equations near a solution.

@@ -1,7 +1,7 @@
 //! The equations at one target: residuals of joint values ([`Fit`]) and derivatives by the joints.
 
 use crate::counters::Event;
-use crate::derivatives::of_affine;
+use crate::derivatives::{of_affine, of_affine_at_once};
 use crate::joints::place;
 use crate::lanes::Lanes;
 use crate::mechanism::{Equations, Facts, Joints, Mechanism, Parameters, Places, Sizes};
@@ -97,6 +97,16 @@ impl<'a, M: Mechanism> Problem<'a, M> {
     pub fn derivatives(&self, at: &Places<M>) -> Equations<M, Joints<M>> {
         let own = self.mechanism.jacobian(self.parameters, at);
         own.unwrap_or_else(|| of_affine(self.mechanism, self.parameters, at))
+    }
+
+    /// The derivative of each equation by each joint, and its value.
+    pub fn linearised(&self, at: &Places<M>) -> (Equations<M, Joints<M>>, Equations<M>) {
+        let (mechanism, p) = (self.mechanism, self.parameters);
+        match mechanism.jacobian(p, at) {
+            Some(slopes) => (slopes, mechanism.values(p, at)),
+            None if M::INTERPRETED => of_affine_at_once(mechanism, p, at),
+            None => (of_affine(mechanism, p, at), mechanism.values(p, at)),
+        }
     }
 
     /// The influence of each joint on the equations: the greatest derivative relative to its equation's size, at most one. It is one for a length.

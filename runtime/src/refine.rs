@@ -84,12 +84,14 @@ impl<M: Mechanism> Answers<'_, M> {
 
     /// Keeps the end of the Newton steps from the candidate with this number. If the equations are ill-conditioned, searches for a second solution.
     pub fn arrive(&mut self, number: usize, found: &Found, approach: Approach<M>) {
-        let Approach { end, fit, missed, pivot } = approach;
+        let Approach { end, fit, missed, pivot, is_doubled } = approach;
         let is_steep = pivot < missed * if found.close { STEEP } else { MILD };
-        if !is_steep {
+        if is_steep {
+            self.unsound = number;
+        }
+        if !(is_steep && is_doubled) {
             return self.keep(found, (end, fit));
         }
-        self.unsound = number;
         let triangle = self.problem.triangle(&end, 0.0, 0);
         let regularity = triangle.regularity();
         if regularity <= PIVOTS.regular {

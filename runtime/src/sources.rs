@@ -1,7 +1,7 @@
 //! Source text of the run time, from which single-file solvers are assembled.
 
 /// The Rust modules in the order of [`crate`], each with its name.
-pub const RUST: [(&str, &str); 44] = [
+pub const RUST: [(&str, &str); 45] = [
     ("angles", include_str!("angles.rs")),
     ("answers", include_str!("answers.rs")),
     ("approach", include_str!("approach.rs")),
@@ -27,6 +27,7 @@ pub const RUST: [(&str, &str); 44] = [
     ("members", include_str!("members.rs")),
     ("nearest", include_str!("nearest.rs")),
     ("newton", include_str!("newton.rs")),
+    ("normal", include_str!("normal.rs")),
     ("number", include_str!("number.rs")),
     ("order", include_str!("order.rs")),
     ("placement", include_str!("placement.rs")),

@@ -69,9 +69,6 @@ pub struct Polishing {
     /// A Newton step that moves no joint by more than this is the last: the next one would be within rounding (rad, or relative to the length scale).
     /// Test: `polishing_step`.
     pub step: f64,
-    /// Where the relative residual of a candidate is at most this, a second step with the derivatives of the first leads to within `ACCEPTANCE.rounding`.
-    /// Test: `polishing_chord`.
-    pub chord: f64,
     /// Damping added where a plain Newton step fails, as at a singular configuration, relative to the size of the squared Jacobian. The last value is for a
     /// solution that is singular in two directions. In one of these the derivative is rounding, which misleads the plain step. In the other one it decreases
     /// with the square root of the residual, so that larger damping would stop the steps too early.
@@ -174,7 +171,6 @@ pub const ACCEPTANCE: Acceptance = Acceptance { residual: 1e-12, rounding: 1e-14
 pub const POLISHING: Polishing = Polishing {
     done: 1e-15,
     step: 1e-9,
-    chord: 5e-6,
     dampings: [0.0, 1e-12, 1e-9, 1e-6, 1e-3, 1e-18],
     freeing: [1e-2, 1e-4, 1e-6, 1e-8, 1e-8],
     difference: 1e-4,

@@ -65,8 +65,7 @@ impl<M: Mechanism> Problem<'_, M> {
 
     /// The Jacobian of the equations and their values.
     pub fn slopes(&self, q: &Joints<M>) -> (Equations<M, Joints<M>>, Equations<M>) {
-        let at = self.place(q);
-        (self.derivatives(&at), self.mechanism.values(self.parameters, &at))
+        self.linearised(&self.place(q))
     }
 
     /// The triangular factor of the relative equations (each divided by its size).
@@ -78,7 +77,8 @@ impl<M: Mechanism> Problem<'_, M> {
     /// The Jacobian of the relative equations and their values.
     pub fn shared(&self, q: &Joints<M>) -> (Equations<M, Joints<M>>, Equations<M>) {
         let at = self.place(q);
-        let (mut derivatives, (mut right, sizes)) = (self.derivatives(&at), self.equations(&at));
+        let (mut derivatives, mut right) = self.linearised(&at);
+        let sizes = self.mechanism.sizes(self.parameters, &at);
         for (i, &size) in self.facts().size_of.iter().enumerate() {
             let size = f64::max(sizes.as_ref()[size], f64::MIN_POSITIVE);
             right.as_mut()[i] /= size;

@@ -2,6 +2,7 @@
 
 mod angles;
 mod arm;
+mod nearby;
 mod nearest;
 mod real_roots;
 mod singular;

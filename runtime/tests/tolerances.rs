@@ -172,19 +172,3 @@ fn roots_distinct() {
     assert_eq!(roots.as_slice().len(), 1, "{:?}", roots.as_slice());
     assert!((roots.as_slice()[0] - 1.873_357).abs() < 1e-5);
 }
-
-/// With 0, a candidate of the nearby robot's formulas needs polishing steps, of which this search has none.
-#[test]
-fn polishing_chord() {
-    let q = [
-        -1.1574905997267422,
-        0.22468450350688896,
-        -1.3915150992706793,
-        2.8325809440093583,
-        -2.6048401351736263,
-        0.24387500039140875,
-    ];
-    let mut out = [irb4600::EMPTY; irb4600::CAPACITY];
-    let target = irb4600::Solver.forward(&q).unwrap();
-    assert_eq!(irb4600::Solver.solve_bounded(&target, 0, &mut out), Ok(2));
-}

@@ -91,16 +91,20 @@ static bool gb_approach_from(const gb_problem *problem, const gb_real *from, con
         if (round == 0) {
             approach->missed = missed;
             approach->pivot = normal.pivot;
+            approach->is_doubled = true;
         }
         if (!(sound > R(0.0))) {
             return false;
         }
-        for (int second = 0; second < (missed > GB_POLISHING_CHORD ? 1 : 2); second++) {
+        for (int second = 0; second < 2; second++) {
             if (second) {
                 gb_second_step_1(problem->p, at, step, &normal);
             }
             if (!gb_step_back(step, at, approach->end)) {
                 return false;
+            }
+            if (!second && missed > GB_CHORD) {
+                continue;
             }
             approach->fit = gb_measure_at(problem, at, approach->end);
             if (approach->fit.relative < GB_ACCEPTANCE_ROUNDING) {

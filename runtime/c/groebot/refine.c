@@ -71,11 +71,12 @@ static bool gb_is_curve(gb_answers *all, const gb_found_1 *found, const gb_real 
 GB_LINKAGE void gb_arrive(gb_answers *all, size_t number, const gb_found_1 *found, const gb_approach *approach)
 {
     gb_triangle triangle;
-    if (!(approach->pivot < approach->missed * (found->close ? GB_STEEP : GB_MILD))) {
+    const bool is_steep = approach->pivot < approach->missed * (found->close ? GB_STEEP : GB_MILD);
+    all->unsound = is_steep ? number : all->unsound;
+    if (!(is_steep && approach->is_doubled)) {
         gb_keep(all, found, approach->end, &approach->fit);
         return;
     }
-    all->unsound = number;
     gb_make_triangle(&all->problem, approach->end, R(0.0), 0, &triangle);
     const gb_real regularity = gb_regularity_in(&triangle);
     if (regularity <= GB_PIVOTS_REGULAR) {

@@ -101,6 +101,12 @@
 #define GB_STEEP R(400.0)
 #define GB_MILD R(4.0)
 #define GB_TURN R(1e-2)
+#define GB_CHORD GB_EITHER(1e-8, 1e-4)
+#define GB_TWIN R(10.0)
+#define GB_TWIN_AT R(2.0)
+#define GB_TWIN_WITHIN R(32.0)
+#define GB_DOUBTFUL R(2.0)
+#define GB_INVERSIONS 3
 
 #define GB_PI R(3.141592653589793)
 #define GB_TAU R(6.283185307179586)
@@ -153,13 +159,14 @@ typedef struct {
 
 typedef struct gb_problem gb_problem;
 
-/* The end of the Newton steps from a nearby mechanism's candidate: joints that solve the equations within rounding, the candidate's relative residual, and
- * the least pivot there. */
+/* The end of the Newton steps from a nearby mechanism's candidate: joints that solve the equations within rounding, the candidate's relative residual, the
+ * least pivot there, and whether a second solution may be near where that is small. */
 typedef struct {
     gb_real end[GB_MAX_JOINTS];
     gb_fit fit;
     gb_real missed;
     gb_real pivot;
+    bool is_doubled;
 } gb_approach;
 
 /* Description of a robot for groebot.c, like `Facts` and `Mechanism` of groebot-runtime. */

@@ -1,6 +1,6 @@
 //! The interface of the run time to a mechanism, implemented for a prepared program.
 
-use groebot_runtime::mechanism::{Equations, Inputs, Joints, Parameters, Places, Sizes};
+use groebot_runtime::mechanism::{Equations, Inputs, Joints, Parameters, Places, Shorts, Sizes};
 use groebot_runtime::storage::{Array, Storage};
 use groebot_runtime::{Candidates, Facts, Found, Mechanism, Number, Preference, Short, With};
 
@@ -101,5 +101,12 @@ impl<S: Storage + 'static> Mechanism for Shaped<S> {
             size: Array::by(count, |i| value.at(count + i)),
             columns: Array::by(joints, |j| Array::by(count, |i| value.at((2 + j) * count + i))),
         })
+    }
+
+    fn short_value<N: Number>(&self, p: &Parameters<Self, N>, at: &Places<Self, N>) -> Shorts<Self, N>
+    where
+        f64: With<N>,
+    {
+        self.short_value.row(p.as_ref(), at.as_ref())
     }
 }

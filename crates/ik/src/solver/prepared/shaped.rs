@@ -44,6 +44,8 @@ pub(super) struct Shaped<S> {
     pub(super) jacobian: Option<Equations>,
     /// The values of the equations for fast polishing, then their sizes, then their derivatives, joint by joint.
     pub(super) short: Equations,
+    /// The values alone.
+    pub(super) short_value: Equations,
     storage: PhantomData<fn() -> S>,
 }
 
@@ -83,7 +85,9 @@ impl Shaped<SixJoints> {
     pub fn are_of_six_joints(layout: &Layout<'_>, facts: &Facts) -> bool {
         let lengths = [facts.inputs, layout.program.parameters.len(), facts.places, facts.equations];
         let rows = [facts.joints.len(), facts.sizes.len(), facts.candidates];
-        rows == [6, 2, 8] && lengths == [12; 4] && tip(layout).len() == 12
+        // Only programs of a nearby mechanism have short equations.
+        let are_short = !facts.nearby || facts.shorts == 6;
+        rows == [6, 2, 8] && lengths == [12; 4] && tip(layout).len() == 12 && are_short
     }
 }
 
@@ -99,6 +103,7 @@ impl<S: Storage + 'static> Shaped<S> {
     pub fn new(layout: &Layout<'_>, facts: Facts) -> Self {
         let (program, checks) = (layout.program, &layout.program.checks);
         let mut short: Vec<_> = checks.short.iter().map(|short| short.residual).collect();
+        let short_value = Equations::new(layout, &short);
         short.extend(checks.short.iter().map(|short| short.scale));
         let joints = 0..program.joints.len();
         short.extend(joints.flat_map(|joint| checks.short.iter().map(move |short| short.derivatives[joint])));
@@ -118,6 +123,7 @@ impl<S: Storage + 'static> Shaped<S> {
             sizes: Equations::new(layout, &facts.sizes),
             jacobian: (!facts.are_affine).then(|| Equations::new(layout, checks.jacobian.iter().flatten())),
             short: Equations::new(layout, &short),
+            short_value,
             facts,
             storage: PhantomData,
         }

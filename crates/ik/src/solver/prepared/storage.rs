@@ -48,7 +48,7 @@ impl Storage for SixJoints {
     type Places<T: Clone> = [T; 12];
     type Equations<T: Clone> = [T; 12];
     type Sizes<T: Clone> = [T; 2];
-    type Shorts<T: Clone> = Row<T, 8>;
+    type Shorts<T: Clone> = [T; 6];
     type Candidates<T: Clone> = [T; 8];
     type Answers<T: Clone> = Row<T, 8>;
     type Triangle = [f64; 126];
