@@ -1,8 +1,7 @@
 //! Many targets, several at once in the lanes of vector registers. Main type: [`Bundle`].
 
-use crate::angles::{acute, unfold};
-use crate::answers::FAR_APART;
-use crate::conditions::fulfil;
+use crate::angles::{FAR_APART, acute, unfold};
+use crate::conditions::are_fulfilled;
 use crate::effort::MOST_STEPS;
 use crate::lanes::{Lanes, Mask};
 use crate::mechanism::{
@@ -10,7 +9,7 @@ use crate::mechanism::{
 };
 use crate::number::{Guard, Number};
 use crate::problem::fit;
-use crate::registers::{in_avx2, in_avx512, in_widest};
+use crate::registers::{in_avx2, in_avx512};
 use crate::singly::{solve_one, solve_one_by_pairs};
 use crate::solution::{Error, Pairs, Solution};
 use crate::steps::Steps;
@@ -92,16 +91,6 @@ pub(crate) fn solve_widest<M: Mechanism, A: Answer<M>>(
 ) -> usize {
     if M::IS_SINGLE {
         return solve_singly(mechanism, targets, out, counts);
-    }
-    if M::INTERPRETED {
-        return if mechanism.facts().runs.is_empty() {
-            solve_singly(mechanism, targets, out, counts)
-        } else {
-            in_widest(
-                #[inline(always)]
-                || solve_by::<M, A, 16>(mechanism, targets, out, counts),
-            )
-        };
     }
     let by_8 = in_avx512(
         #[inline(always)]
@@ -274,13 +263,7 @@ impl<M: Mechanism, const W: usize> Bundle<M, W> {
         let number = |i: usize, lane: usize| targets[lane.min(targets.len() - 1)].as_ref()[i];
         let mut target: Inputs<M, Lanes<W>> =
             Array::by(facts.inputs, |i| Lanes(core::array::from_fn(|lane| number(i, lane))));
-        let mut fine = Mask([!0; W]);
-        for value in target.as_ref() {
-            fine = fine & value.abs().at_most(Lanes::of(f64::MAX));
-        }
-        for condition in facts.conditions {
-            fine = fine & fulfil(*condition, target.as_mut());
-        }
+        let fine = are_fulfilled(facts.conditions, target.as_mut());
         let p = mechanism.parameters(&target);
         (self.doubt, self.count) = (fine.inverted(), 0);
         mechanism.walk(&p, self);

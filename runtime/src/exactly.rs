@@ -17,6 +17,9 @@ pub(crate) fn solve_ideal<M: Mechanism>(
 ) -> Result<usize, Error> {
     let mut target = target.clone();
     conform(mechanism.facts().conditions, target.as_mut())?;
+    if let Some(count) = mechanism.ordinary(&target, out) {
+        return Ok(count);
+    }
     let p = mechanism.parameters(&target);
     let mut answers = Answers::new(Problem::new(mechanism, &p, steps), out, None);
     answers.find()?;

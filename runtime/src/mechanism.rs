@@ -1,6 +1,7 @@
 //! Interface of a derived solver ([`Mechanism`]) and the receiver of its candidates ([`Candidates`]).
 
 use crate::number::{Guard, Number, Roots, With};
+use crate::solution::Solution;
 use crate::storage::{Array, Storage};
 
 /// A row with one value for each joint of a mechanism.
@@ -29,8 +30,6 @@ pub trait Mechanism: Sized {
     type Storage: Storage;
     /// Whether targets of a batch are solved one after the other.
     const IS_SINGLE: bool = false;
-    /// Whether sixteen targets are solved at once, because the interpreter spends more time on decoding an operation than on computing it.
-    const INTERPRETED: bool = false;
 
     /// Constants that hold for all targets.
     fn facts(&self) -> Facts<'_>;
@@ -44,6 +43,13 @@ pub trait Mechanism: Sized {
     fn walk<N: Number, C: Candidates<N, Self>>(&self, p: &Parameters<Self, N>, candidates: &mut C)
     where
         f64: With<N>;
+
+    /// Writes all solutions of an ordinary target to the front of `out`, ordered by branch, and returns their number. The target fulfils its conditions. `None`
+    /// where the target is not ordinary or `out` is too short, and for a mechanism without separate code for ordinary targets.
+    #[inline(always)]
+    fn ordinary(&self, _target: &Inputs<Self>, _out: &mut [Solution<Self>]) -> Option<usize> {
+        None
+    }
 
     /// The values that the equations compare with parameters, or NaN where equations are of another kind.
     fn tip<N: Number>(&self, _at: &Places<Self, N>) -> Equations<Self, N>

@@ -1,5 +1,6 @@
 //! The interface of the run time to a mechanism, implemented for a prepared program.
 
+use groebot_runtime as runtime;
 use groebot_runtime::mechanism::{Equations, Inputs, Joints, Parameters, Places, Sizes};
 use groebot_runtime::storage::{Array, Storage};
 use groebot_runtime::{Candidates, Facts, Found, Mechanism, Number, Preference, Short, With};
@@ -9,7 +10,6 @@ use super::shaped::Shaped;
 
 impl<S: Storage + 'static> Mechanism for Shaped<S> {
     type Storage = S;
-    const INTERPRETED: bool = true;
 
     #[inline(always)]
     fn facts(&self) -> Facts<'_> {
@@ -54,6 +54,11 @@ impl<S: Storage + 'static> Mechanism for Shaped<S> {
         self.blocks.memory.with(p.as_ref(), &[], |memory| {
             Run { solver: self, memory, candidates }.block(0, Found::first(0, 0));
         });
+    }
+
+    #[inline]
+    fn ordinary(&self, target: &Inputs<Self>, out: &mut [runtime::Solution<Self>]) -> Option<usize> {
+        self.solve_ordinary(target, out)
     }
 
     fn tip<N: Number>(&self, at: &Places<Self, N>) -> Equations<Self, N>

@@ -1,0 +1,131 @@
+//! Execution of straight-line code on rows of lanes. Main type: [`Outcome`].
+
+use groebot_runtime::lanes::{Doubt, Lanes, Mask};
+use groebot_runtime::{Guard, Number};
+
+use super::super::code::{Kind, Line};
+use super::plan::{Action, PlacedTest, Plan, Step};
+
+/// The number of lanes of a row: those of the widest vector register.
+pub(super) const WIDTH: usize = 8;
+/// The maximal number of rows of a value, one for each candidate.
+pub(super) const MOST: usize = 16;
+
+/// A row in memory.
+pub(super) type Row = Line<Lanes<WIDTH>>;
+
+/// What execution finds about lanes, beside values.
+pub(super) struct Outcome {
+    /// By row of the last root's operands, where roots do not exist or are close to each other.
+    pub roots: [Doubt<WIDTH>; MOST],
+    /// Where guards hold that do not at ordinary targets, or the reverse.
+    pub doubt: Mask<WIDTH>,
+}
+
+impl Outcome {
+    pub const NONE: Outcome = Outcome { roots: [Lanes::<WIDTH>::SURE; MOST], doubt: Mask::NONE };
+}
+
+impl Plan {
+    /// Writes the constants, which stay in memory.
+    #[inline(always)]
+    pub fn begin(&self, memory: &mut Vec<Row>) {
+        if memory.len() < self.size {
+            memory.resize(self.size, Line(Lanes([0.0; WIDTH])));
+        }
+        for &(place, constant) in &self.constants {
+            memory[place as usize].0 = Lanes([constant; WIDTH]);
+        }
+    }
+
+    /// Runs the code for the numbers of targets.
+    #[inline(always)]
+    pub fn run(&self, memory: &mut [Row], input: impl Fn(usize) -> Lanes<WIDTH>, outcome: &mut Outcome) {
+        for &(place, index) in &self.inputs {
+            memory[place as usize].0 = input(index);
+        }
+        (outcome.roots[0], outcome.doubt) = (Lanes::<WIDTH>::SURE, Mask::NONE);
+        for step in &self.steps {
+            match step.action {
+                Action::Compute(Kind::Add) => each(step, memory, |a, b| a + b),
+                Action::Compute(Kind::Sub) => each(step, memory, |a, b| a - b),
+                Action::Compute(Kind::Mul) => each(step, memory, |a, b| a * b),
+                Action::Compute(Kind::Div) => each(step, memory, |a, b| a / b),
+                Action::Compute(Kind::Abs) => each(step, memory, |a, _| a.abs()),
+                Action::Compute(Kind::Sqrt) => each(step, memory, |a, _| a.root()),
+                Action::Compute(Kind::Greater) => each(step, memory, |a, b| a.greater(b.abs())),
+                Action::Roots => both_roots(step, memory, outcome),
+                Action::FirstRoot => first_root(step, memory, outcome),
+                Action::OwnRoot { bit } => own_root(step, bit, memory, outcome),
+                Action::Guard => {
+                    let (tests, is_usual) = &self.guards[step.target as usize];
+                    guard(step, tests, *is_usual, memory, outcome);
+                }
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn each(step: &Step, memory: &mut [Row], operation: impl Fn(Lanes<WIDTH>, Lanes<WIDTH>) -> Lanes<WIDTH>) {
+    let target = step.target as usize;
+    for row in 0..step.rows as usize {
+        memory[target + row] = Line(operation(memory[step.a.at(row)].0, memory[step.b.at(row)].0));
+    }
+}
+
+/// The roots of a row, ascending, and where they are in doubt.
+#[inline(always)]
+fn roots(step: &Step, row: usize, memory: &[Row]) -> ([Lanes<WIDTH>; 2], Doubt<WIDTH>) {
+    let roots = Lanes::square_roots(memory[step.a.at(row)].0, memory[step.b.at(row)].0);
+    ([roots.as_slice()[0], roots.as_slice()[1]], roots.doubt(0))
+}
+
+/// Both roots, for twice as many rows.
+#[inline(always)]
+fn both_roots(step: &Step, memory: &mut [Row], outcome: &mut Outcome) {
+    let target = step.target as usize;
+    // Rows of earlier roots are read before they are overwritten.
+    for row in (0..step.rows as usize).rev() {
+        let (values, doubt) = roots(step, row, memory);
+        outcome.roots[row] = outcome.roots[row / 2] | doubt;
+        [memory[target + 2 * row].0, memory[target + 2 * row + 1].0] = values;
+    }
+}
+
+#[inline(always)]
+fn first_root(step: &Step, memory: &mut [Row], outcome: &mut Outcome) {
+    for row in (0..step.rows as usize).rev() {
+        let (values, doubt) = roots(step, row, memory);
+        outcome.roots[row] = outcome.roots[row / 2] | doubt;
+        memory[step.target as usize + row].0 = values[0];
+    }
+}
+
+/// Of each candidate the root that a bit of its index selects.
+#[inline(always)]
+fn own_root(step: &Step, bit: u32, memory: &mut [Row], outcome: &mut Outcome) {
+    for row in 0..step.rows as usize {
+        let ([low, high], doubt) = roots(step, row, memory);
+        let is_high = |lane: usize| (row * WIDTH + lane) >> bit & 1 == 1;
+        let is_high = Mask(std::array::from_fn(|lane| if is_high(lane) { !0 } else { 0 }));
+        outcome.roots[row] = outcome.roots[row] | doubt;
+        memory[step.target as usize + row].0 = high.or(low, is_high);
+    }
+}
+
+#[inline(always)]
+fn guard(step: &Step, tests: &[PlacedTest], is_usual: bool, memory: &[Row], outcome: &mut Outcome) {
+    for row in 0..step.rows as usize {
+        let here = |test: &PlacedTest| {
+            let (value, scale) = (memory[test.value.at(row)].0, memory[test.scale.at(row)].0);
+            let Guard { here, .. } = if test.near { value.near(scale) } else { value.away(scale) };
+            here
+        };
+        let mut all = Mask([!0; WIDTH]);
+        for test in tests {
+            all = all & here(test);
+        }
+        outcome.doubt = outcome.doubt | if is_usual { all.inverted() } else { all };
+    }
+}
