@@ -306,6 +306,10 @@ fn solution<S: Storage + 'static>(found: &runtime::Solution<Shaped<S>>) -> Solut
 }
 
 /// The joints whose bits are set.
+#[inline]
 fn joints_of(bits: u32) -> Vec<usize> {
+    if bits == 0 {
+        return Vec::new();
+    }
     (0..u32::BITS as usize).filter(|joint| bits >> joint & 1 == 1).collect()
 }

@@ -1,10 +1,12 @@
 //! Execution of straight-line code on rows of lanes. Main type: [`Outcome`].
 
+use std::cell::Cell;
+
 use groebot_runtime::lanes::{Doubt, Lanes, Mask};
 use groebot_runtime::{Guard, Number};
 
 use super::super::code::{Kind, Line};
-use super::plan::{Action, PlacedTest, Plan, Step};
+use super::plan::{Action, PlacedTest, Plan, Rows, Step};
 
 /// The number of lanes of a row: those of the widest vector register.
 pub(super) const WIDTH: usize = 8;
@@ -12,7 +14,10 @@ pub(super) const WIDTH: usize = 8;
 pub(super) const MOST: usize = 16;
 
 /// A row in memory.
-pub(super) type Row = Line<Lanes<WIDTH>>;
+pub(super) type Row = Line<Number8>;
+
+/// The numbers of a row.
+pub(super) type Number8 = Lanes<WIDTH>;
 
 /// What execution finds about lanes, beside values.
 pub(super) struct Outcome {
@@ -23,7 +28,7 @@ pub(super) struct Outcome {
 }
 
 impl Outcome {
-    pub const NONE: Outcome = Outcome { roots: [Lanes::<WIDTH>::SURE; MOST], doubt: Mask::NONE };
+    pub const NONE: Outcome = Outcome { roots: [Number8::SURE; MOST], doubt: Mask::NONE };
 }
 
 impl Plan {
@@ -40,11 +45,11 @@ impl Plan {
 
     /// Runs the code for the numbers of targets.
     #[inline(always)]
-    pub fn run(&self, memory: &mut [Row], input: impl Fn(usize) -> Lanes<WIDTH>, outcome: &mut Outcome) {
+    pub fn run(&self, memory: &mut [Row], input: impl Fn(usize) -> Number8, outcome: &mut Outcome) {
         for &(place, index) in &self.inputs {
             memory[place as usize].0 = input(index);
         }
-        (outcome.roots[0], outcome.doubt) = (Lanes::<WIDTH>::SURE, Mask::NONE);
+        (outcome.roots[0], outcome.doubt) = (Number8::SURE, Mask::NONE);
         for step in &self.steps {
             match step.action {
                 Action::Compute(Kind::Add) => each(step, memory, |a, b| a + b),
@@ -54,6 +59,11 @@ impl Plan {
                 Action::Compute(Kind::Abs) => each(step, memory, |a, _| a.abs()),
                 Action::Compute(Kind::Sqrt) => each(step, memory, |a, _| a.root()),
                 Action::Compute(Kind::Greater) => each(step, memory, |a, b| a.greater(b.abs())),
+                Action::ProductPlus => products(step, memory, |a, b, c, _| a * b + c),
+                Action::ProductMinus => products(step, memory, |a, b, c, _| a * b - c),
+                Action::MinusProduct => products(step, memory, |a, b, c, _| c - a * b),
+                Action::ProductsSum => products(step, memory, |a, b, c, d| a * b + c * d),
+                Action::ProductsDifference => products(step, memory, |a, b, c, d| a * b - c * d),
                 Action::Roots => both_roots(step, memory, outcome),
                 Action::FirstRoot => first_root(step, memory, outcome),
                 Action::OwnRoot { bit } => own_root(step, bit, memory, outcome),
@@ -66,18 +76,75 @@ impl Plan {
     }
 }
 
+/// Computes each row of an operation with two operands.
 #[inline(always)]
-fn each(step: &Step, memory: &mut [Row], operation: impl Fn(Lanes<WIDTH>, Lanes<WIDTH>) -> Lanes<WIDTH>) {
-    let target = step.target as usize;
-    for row in 0..step.rows as usize {
-        memory[target + row] = Line(operation(memory[step.a.at(row)].0, memory[step.b.at(row)].0));
+fn each(step: &Step, memory: &mut [Row], operation: impl Fn(Number8, Number8) -> Number8) {
+    let ([a, b, ..], target, rows) = (step.operands, step.target as usize, step.rows as usize);
+    if rows == 1 {
+        memory[target] = Line(operation(memory[a.first as usize].0, memory[b.first as usize].0));
+        return;
+    }
+    let memory = Cell::from_mut(memory).as_slice_of_cells();
+    let (targets, of_a, of_b) = (&memory[target..][..rows], a.cells(memory, rows), b.cells(memory, rows));
+    let set = |target: &Cell<Row>, a: Number8, b: Number8| target.set(Line(operation(a, b)));
+    if of_a.len() == rows && of_b.len() == rows {
+        for ((target, a), b) in targets.iter().zip(of_a).zip(of_b) {
+            set(target, a.get().0, b.get().0);
+        }
+    } else if of_a.len() == 1 && of_b.len() == rows {
+        let a = of_a[0].get().0;
+        for (target, b) in targets.iter().zip(of_b) {
+            set(target, a, b.get().0);
+        }
+    } else if of_a.len() == rows && of_b.len() == 1 {
+        let b = of_b[0].get().0;
+        for (target, a) in targets.iter().zip(of_a) {
+            set(target, a.get().0, b);
+        }
+    } else {
+        for (row, target) in targets.iter().enumerate() {
+            set(target, of_a[row >> a.shift].get().0, of_b[row >> b.shift].get().0);
+        }
+    }
+}
+
+/// Computes each row of an operation with up to four operands.
+#[inline(always)]
+fn products(step: &Step, memory: &mut [Row], operation: impl Fn(Number8, Number8, Number8, Number8) -> Number8) {
+    let ([a, b, c, d], target, rows) = (step.operands, step.target as usize, step.rows as usize);
+    if rows == 1 {
+        let number = |rows: Rows| memory[rows.first as usize].0;
+        memory[target] = Line(operation(number(a), number(b), number(c), number(d)));
+        return;
+    }
+    let memory = Cell::from_mut(memory).as_slice_of_cells();
+    let (of_a, of_b) = (a.cells(memory, rows), b.cells(memory, rows));
+    let (of_c, of_d) = (c.cells(memory, rows), d.cells(memory, rows));
+    let targets = &memory[target..][..rows];
+    if of_a.len() + of_b.len() + of_c.len() + of_d.len() == 4 * rows {
+        for ((((target, a), b), c), d) in targets.iter().zip(of_a).zip(of_b).zip(of_c).zip(of_d) {
+            target.set(Line(operation(a.get().0, b.get().0, c.get().0, d.get().0)));
+        }
+    } else {
+        for (row, target) in targets.iter().enumerate() {
+            let number = |rows: Rows, cells: &[Cell<Row>]| cells[row >> rows.shift].get().0;
+            target.set(Line(operation(number(a, of_a), number(b, of_b), number(c, of_c), number(d, of_d))));
+        }
+    }
+}
+
+impl Rows {
+    /// The rows of a value that is read for `rows` rows.
+    #[inline(always)]
+    fn cells(self, memory: &[Cell<Row>], rows: usize) -> &[Cell<Row>] {
+        &memory[self.first as usize..][..rows >> self.shift]
     }
 }
 
 /// The roots of a row, ascending, and where they are in doubt.
 #[inline(always)]
-fn roots(step: &Step, row: usize, memory: &[Row]) -> ([Lanes<WIDTH>; 2], Doubt<WIDTH>) {
-    let roots = Lanes::square_roots(memory[step.a.at(row)].0, memory[step.b.at(row)].0);
+fn roots(step: &Step, row: usize, memory: &[Row]) -> ([Number8; 2], Doubt<WIDTH>) {
+    let roots = Lanes::square_roots(memory[step.operands[0].at(row)].0, memory[step.operands[1].at(row)].0);
     ([roots.as_slice()[0], roots.as_slice()[1]], roots.doubt(0))
 }
 

@@ -101,6 +101,11 @@ impl Bundle<'_> {
         if self.own.turned[place] && candidate % 2 == 1 { -number } else { number }
     }
 
+    #[inline(always)]
+    fn pair(&self, candidate: usize, [c, s]: [usize; 2]) -> [Lanes<WIDTH>; 2] {
+        [self.number(candidate, c), self.number(candidate, s)]
+    }
+
     /// Marks targets with two candidates close to each other. Twins have equal distances to others.
     #[inline(always)]
     fn tell_apart(&mut self, facts: &Facts<'_>) {
@@ -110,7 +115,9 @@ impl Bundle<'_> {
                 let mut near = (self.roots(k).dead | self.roots(other).dead).inverted();
                 for &i in facts.last_first {
                     let Joint::Angle(pair) = facts.joints[i] else { continue };
-                    let [c, s] = pair.map(|place| self.number(k, place) * self.number(other, place));
+                    let [c, s] = self.pair(k, pair);
+                    let [other_c, other_s] = self.pair(other, pair);
+                    let (c, s) = (c * other_c, s * other_s);
                     near = near & Lanes::of(FAR_APART).exceeds(c + s).inverted();
                     if !near.any() {
                         break;
@@ -135,7 +142,7 @@ impl Bundle<'_> {
                 }
                 let value = match *joint {
                     Joint::Angle(pair) => {
-                        let [c, s] = pair.map(|place| self.number(k, place));
+                        let [c, s] = self.pair(k, pair);
                         size = if is_new { acute(c.abs(), s.abs()) } else { size };
                         unfold(size, c, s)
                     }

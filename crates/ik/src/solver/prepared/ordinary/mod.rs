@@ -29,8 +29,8 @@ pub(super) struct Ordinary {
     /// By place, whether its sign changes in the second candidate of a pair.
     turned: Vec<bool>,
     branches: Vec<usize>,
-    /// By equation, the index of its size.
-    size_of: Vec<usize>,
+    /// By size, the equations that have it.
+    of_size: Vec<Vec<usize>>,
 }
 
 impl Ordinary {
@@ -39,12 +39,13 @@ impl Ordinary {
         let graph = Graph::new(layout, facts)?;
         let (candidates, twins) = (facts.candidates, facts.twins);
         let roots = graph.roots - usize::from(twins == 2);
+        let of_size = |size| (0..facts.equations).filter(|&equation| facts.size_of[equation] == size).collect();
         Some(Ordinary {
             many: Plan::new(&graph, Abreast::Targets { roots }),
             one: Plan::new(&graph, Abreast::Candidates { rows: candidates.div_ceil(WIDTH) }),
             twins,
             turned: (0..facts.places).map(|place| twins == 2 && facts.turned.contains(&place)).collect(),
-            size_of: facts.size_of.clone(),
+            of_size: (0..facts.sizes.len()).map(of_size).collect(),
             branches: graph.branches,
         })
     }
@@ -54,10 +55,10 @@ impl Ordinary {
     fn measure(&self, plan: &Plan, memory: &[Row], row: usize) -> [Lanes<WIDTH>; 2] {
         let number = |rows: &Rows| memory[rows.at(row)].0;
         let [mut residual, mut relative] = [Lanes::of(0.0); 2];
-        for (index, size) in plan.sizes.iter().enumerate() {
+        for (size, equations) in plan.sizes.iter().zip(&self.of_size) {
             let mut largest = Lanes::of(0.0);
-            for (value, _) in plan.residuals.iter().zip(&self.size_of).filter(|(_, size)| **size == index) {
-                largest = largest.greater(number(value).abs());
+            for &equation in equations {
+                largest = largest.greater(number(&plan.residuals[equation]).abs());
             }
             residual = residual.greater(largest);
             relative = relative.greater(largest / number(size).max(Lanes::of(f64::MIN_POSITIVE)));

@@ -1,12 +1,12 @@
 //! One target, with its candidates in lanes.
 
 use groebot_runtime as runtime;
-use groebot_runtime::angles::{FAR_APART, angle};
+use groebot_runtime::angles::{FAR_APART, acute, unfold};
 use groebot_runtime::lanes::{Lanes, Mask};
 use groebot_runtime::mechanism::Inputs;
 use groebot_runtime::registers::in_widest;
 use groebot_runtime::storage::{Array, Storage};
-use groebot_runtime::{Facts, Joint, Mechanism};
+use groebot_runtime::{Facts, Joint, Mechanism, Number};
 
 use super::super::shaped::Shaped;
 use super::super::spare::with_spare;
@@ -55,7 +55,10 @@ impl<S: Storage + 'static> Shaped<S> {
             for row in 0..own.one.rows {
                 let number = |place: usize| memory[own.one.places[place].at(row)].0;
                 q[row] = match *joint {
-                    Joint::Angle([c, s]) => angle(number(c), number(s)),
+                    Joint::Angle([c, s]) => {
+                        let (c, s) = (number(c), number(s));
+                        unfold(acute(c.abs(), s.abs()), c, s)
+                    }
                     Joint::Length(place) => number(place),
                 };
             }
@@ -66,10 +69,17 @@ impl<S: Storage + 'static> Shaped<S> {
             if found.dead[row].0[lane] != 0 {
                 continue;
             }
-            let [residual, relative] = found.measures[row].map(|own| own.0[lane]);
+            let [residual, relative] = found.measures[row];
             let q = Array::by(joints, |i| q[i][row].0[lane]);
-            *out.get_mut(count)? =
-                runtime::Solution { q, residual, relative, branch, chosen: false, free: 0, settled: true };
+            *out.get_mut(count)? = runtime::Solution {
+                q,
+                residual: residual.0[lane],
+                relative: relative.0[lane],
+                branch,
+                chosen: false,
+                free: 0,
+                settled: true,
+            };
             count += 1;
         }
         Some(count)
@@ -103,13 +113,16 @@ impl Ordinary {
         let candidates = self.branches.len();
         for k in 1..candidates {
             for other in 0..k {
-                let differ = |&i: &usize| match facts.joints[i] {
-                    Joint::Angle([c, s]) => {
-                        number(c, k) * number(c, other) + number(s, k) * number(s, other) < FAR_APART
+                let mut are_apart = is_dead(k) || is_dead(other);
+                // A loop, because a closure given to an iterator is not inlined here.
+                for &i in facts.last_first {
+                    if are_apart {
+                        break;
                     }
-                    Joint::Length(_) => false,
-                };
-                if !is_dead(k) && !is_dead(other) && !facts.last_first.iter().any(differ) {
+                    let Joint::Angle([c, s]) = facts.joints[i] else { continue };
+                    are_apart = number(c, k) * number(c, other) + number(s, k) * number(s, other) < FAR_APART;
+                }
+                if !are_apart {
                     return false;
                 }
             }

@@ -36,13 +36,23 @@ pub(super) struct Step {
     pub rows: u32,
     /// The first row of the result, or the index of guards.
     pub target: u32,
-    pub a: Rows,
-    pub b: Rows,
+    /// The operands; those that the action does not have are the first one.
+    pub operands: [Rows; 4],
 }
 
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Action {
     Compute(Kind),
+    /// `a b + c`, with two roundings. A product that only a sum reads is not stored.
+    ProductPlus,
+    /// `a b - c`
+    ProductMinus,
+    /// `c - a b`
+    MinusProduct,
+    /// `a b + c d`
+    ProductsSum,
+    /// `a b - c d`
+    ProductsDifference,
     /// Both roots in turn.
     Roots,
     /// The first root of a pair.
@@ -112,6 +122,8 @@ struct Planner<'a> {
     abreast: Abreast,
     /// By value, its number of reads that are left; results are never released.
     reads: Vec<usize>,
+    /// By value, the sum or difference that is the only reader.
+    sums: Vec<Option<Value>>,
     /// By value, its first row.
     first: Vec<u32>,
     /// By the logarithm of a number of rows, first rows that are used again.
@@ -134,8 +146,17 @@ impl<'a> Planner<'a> {
                 operands(node).into_iter().for_each(|operand| reads[operand] += 1);
             }
         }
+        let mut sums = vec![None; graph.nodes.len()];
+        for (value, node) in graph.nodes.iter().enumerate().filter(|(value, _)| reads[*value] > 0) {
+            if let Node::Result(Kind::Add | Kind::Sub, operands) = *node {
+                operands
+                    .into_iter()
+                    .filter(|&operand| reads[operand] == 1)
+                    .for_each(|operand| sums[operand] = Some(value));
+            }
+        }
         let first = vec![u32::MAX; graph.nodes.len()];
-        Planner { graph, abreast, reads, first, free: vec![Vec::new(); usize::BITS as usize], size: 0 }
+        Planner { graph, abreast, reads, sums, first, free: vec![Vec::new(); usize::BITS as usize], size: 0 }
     }
 
     /// The number of rows of a value after this number of roots.
@@ -204,9 +225,13 @@ impl<'a> Planner<'a> {
             let Some(node) = graph.nodes.get(value).filter(|_| self.reads[value] > 0) else { continue };
             match *node {
                 Node::Constant(_) | Node::Input(_) => {}
-                Node::Result(kind, operands) => plan.steps.push(self.step(Action::Compute(kind), value, operands)),
+                Node::Result(..) if self.is_fused(value) => {}
+                Node::Result(kind, operands) => {
+                    let (action, operands) = self.fused(kind, operands);
+                    plan.steps.push(self.step(action, value, &operands));
+                }
                 Node::Root { constant, typical, number } => {
-                    plan.steps.push(self.step(self.root(number), value, [constant, typical]));
+                    plan.steps.push(self.step(self.root(number), value, &[constant, typical]));
                 }
             }
         }
@@ -221,13 +246,38 @@ impl<'a> Planner<'a> {
         }
     }
 
-    fn step(&mut self, action: Action, value: Value, operands: [Value; 2]) -> Step {
+    /// Whether a value is a product that only a sum or a difference with the same number of rows reads.
+    fn is_fused(&self, value: Value) -> bool {
+        let is_product = matches!(self.graph.nodes[value], Node::Result(Kind::Mul, _));
+        is_product && self.sums[value].is_some_and(|sum| self.rows_of(sum) == self.rows_of(value))
+    }
+
+    /// The action and the operands of a result, with the products among its operands.
+    fn fused(&self, kind: Kind, [x, y]: [Value; 2]) -> (Action, Vec<Value>) {
+        let product = |value: Value| match self.graph.nodes[value] {
+            Node::Result(Kind::Mul, operands) if self.is_fused(value) => Some(operands),
+            _ => None,
+        };
+        let is_sum = kind == Kind::Add;
+        match (product(x), product(y)) {
+            _ if !matches!(kind, Kind::Add | Kind::Sub) => (Action::Compute(kind), vec![x, y]),
+            (Some([a, b]), Some([c, d])) => {
+                (if is_sum { Action::ProductsSum } else { Action::ProductsDifference }, vec![a, b, c, d])
+            }
+            (Some([a, b]), None) => (if is_sum { Action::ProductPlus } else { Action::ProductMinus }, vec![a, b, y]),
+            (None, Some([a, b])) => (if is_sum { Action::ProductPlus } else { Action::MinusProduct }, vec![a, b, x]),
+            (None, None) => (Action::Compute(kind), vec![x, y]),
+        }
+    }
+
+    fn step(&mut self, action: Action, value: Value, operands: &[Value]) -> Step {
         // Both roots are found from rows without them.
         let rows = if let Action::Roots = action { self.rows_of(value) / 2 } else { self.rows_of(value) };
-        let [a, b] = operands.map(|operand| self.read(operand, rows));
-        operands.into_iter().for_each(|operand| self.release(operand));
+        let read = |index: usize| self.read(operands.get(index).copied().unwrap_or(operands[0]), rows);
+        let addresses = std::array::from_fn(read);
+        operands.iter().for_each(|&operand| self.release(operand));
         let target = self.take(value);
-        Step { action, rows: narrow(rows), target, a, b }
+        Step { action, rows: narrow(rows), target, operands: addresses }
     }
 
     fn guard(&mut self, guards: &Guards, plan: &mut Plan) {
@@ -242,8 +292,8 @@ impl<'a> Planner<'a> {
         values().for_each(|value| self.release(value));
         let target = narrow(plan.guards.len());
         plan.guards.push((tests, guards.is_usual));
-        let none = Rows::default();
-        plan.steps.push(Step { action: Action::Guard, rows: narrow(rows), target, a: none, b: none });
+        let operands = [Rows::default(); 4];
+        plan.steps.push(Step { action: Action::Guard, rows: narrow(rows), target, operands });
     }
 }
 
