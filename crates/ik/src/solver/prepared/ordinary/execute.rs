@@ -3,6 +3,7 @@
 use std::cell::Cell;
 
 use groebot_runtime::lanes::{Doubt, Lanes, Mask};
+use groebot_runtime::registers::in_widest;
 use groebot_runtime::{Guard, Number};
 
 use super::super::code::{Kind, Line};
@@ -32,23 +33,37 @@ impl Outcome {
 }
 
 impl Plan {
-    /// Writes the constants, which stay in memory.
+    /// Makes room for a number of rows and writes the constants, which stay in memory.
     #[inline(always)]
-    pub fn begin(&self, memory: &mut Vec<Row>) {
-        if memory.len() < self.size {
-            memory.resize(self.size, Line(Lanes([0.0; WIDTH])));
+    pub fn begin(&self, memory: &mut Vec<Row>, size: usize) {
+        if memory.len() < size {
+            memory.resize(size, Line(Lanes([0.0; WIDTH])));
         }
         for &(place, constant) in &self.constants {
             memory[place as usize].0 = Lanes([constant; WIDTH]);
         }
     }
 
-    /// Runs the code for the numbers of targets.
+    /// Writes the numbers of targets.
     #[inline(always)]
-    pub fn run(&self, memory: &mut [Row], input: impl Fn(usize) -> Number8, outcome: &mut Outcome) {
+    pub fn load(&self, memory: &mut [Row], input: impl Fn(usize) -> Number8) {
         for &(place, index) in &self.inputs {
             memory[place as usize].0 = input(index);
         }
+    }
+
+    /// Runs the code in the widest registers of the processor. (A crate that is optimised for speed compiles its own
+    /// copy, also if this crate is optimised for size.)
+    #[inline]
+    pub fn run(&self, memory: &mut [Row], outcome: &mut Outcome) {
+        in_widest(
+            #[inline(always)]
+            || self.run_steps(memory, outcome),
+        );
+    }
+
+    #[inline(always)]
+    fn run_steps(&self, memory: &mut [Row], outcome: &mut Outcome) {
         (outcome.roots[0], outcome.doubt) = (Number8::SURE, Mask::NONE);
         for step in &self.steps {
             match step.action {
@@ -86,24 +101,29 @@ fn each(step: &Step, memory: &mut [Row], operation: impl Fn(Number8, Number8) ->
     }
     let memory = Cell::from_mut(memory).as_slice_of_cells();
     let (targets, of_a, of_b) = (&memory[target..][..rows], a.cells(memory, rows), b.cells(memory, rows));
-    let set = |target: &Cell<Row>, a: Number8, b: Number8| target.set(Line(operation(a, b)));
+    let set = |target: &Cell<Row>, a: &Cell<Row>, b: &Cell<Row>| target.set(Line(operation(a.get().0, b.get().0)));
+    // Two rows at a time: the compiler would transpose single rows to vectorise the loop.
+    let targets = targets.chunks_exact(2);
     if of_a.len() == rows && of_b.len() == rows {
-        for ((target, a), b) in targets.iter().zip(of_a).zip(of_b) {
-            set(target, a.get().0, b.get().0);
+        for ((target, a), b) in targets.zip(of_a.chunks_exact(2)).zip(of_b.chunks_exact(2)) {
+            set(&target[0], &a[0], &b[0]);
+            set(&target[1], &a[1], &b[1]);
         }
     } else if of_a.len() == 1 && of_b.len() == rows {
-        let a = of_a[0].get().0;
-        for (target, b) in targets.iter().zip(of_b) {
-            set(target, a, b.get().0);
+        for (target, b) in targets.zip(of_b.chunks_exact(2)) {
+            set(&target[0], &of_a[0], &b[0]);
+            set(&target[1], &of_a[0], &b[1]);
         }
     } else if of_a.len() == rows && of_b.len() == 1 {
-        let b = of_b[0].get().0;
-        for (target, a) in targets.iter().zip(of_a) {
-            set(target, a.get().0, b);
+        for (target, a) in targets.zip(of_a.chunks_exact(2)) {
+            set(&target[0], &a[0], &of_b[0]);
+            set(&target[1], &a[1], &of_b[0]);
         }
     } else {
-        for (row, target) in targets.iter().enumerate() {
-            set(target, of_a[row >> a.shift].get().0, of_b[row >> b.shift].get().0);
+        for (pair, target) in targets.enumerate() {
+            let [first, second] = [2 * pair, 2 * pair + 1];
+            set(&target[0], &of_a[first >> a.shift], &of_b[first >> b.shift]);
+            set(&target[1], &of_a[second >> a.shift], &of_b[second >> b.shift]);
         }
     }
 }
@@ -122,14 +142,21 @@ fn products(step: &Step, memory: &mut [Row], operation: impl Fn(Number8, Number8
     let (of_c, of_d) = (c.cells(memory, rows), d.cells(memory, rows));
     let targets = &memory[target..][..rows];
     if of_a.len() + of_b.len() + of_c.len() + of_d.len() == 4 * rows {
-        for ((((target, a), b), c), d) in targets.iter().zip(of_a).zip(of_b).zip(of_c).zip(of_d) {
+        let set = |target: &Cell<Row>, a: &Cell<Row>, b: &Cell<Row>, c: &Cell<Row>, d: &Cell<Row>| {
             target.set(Line(operation(a.get().0, b.get().0, c.get().0, d.get().0)));
+        };
+        let (targets, of_a, of_b) = (targets.chunks_exact(2), of_a.chunks_exact(2), of_b.chunks_exact(2));
+        let (of_c, of_d) = (of_c.chunks_exact(2), of_d.chunks_exact(2));
+        for ((((target, a), b), c), d) in targets.zip(of_a).zip(of_b).zip(of_c).zip(of_d) {
+            set(&target[0], &a[0], &b[0], &c[0], &d[0]);
+            set(&target[1], &a[1], &b[1], &c[1], &d[1]);
         }
-    } else {
-        for (row, target) in targets.iter().enumerate() {
-            let number = |rows: Rows, cells: &[Cell<Row>]| cells[row >> rows.shift].get().0;
-            target.set(Line(operation(number(a, of_a), number(b, of_b), number(c, of_c), number(d, of_d))));
-        }
+        return;
+    }
+    let number = |rows: Rows, cells: &[Cell<Row>], row: usize| cells[row >> rows.shift].get().0;
+    for (row, target) in targets.iter().enumerate() {
+        let (a, b) = (number(a, of_a, row), number(b, of_b, row));
+        target.set(Line(operation(a, b, number(c, of_c, row), number(d, of_d, row))));
     }
 }
 

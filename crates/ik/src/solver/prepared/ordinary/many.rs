@@ -2,18 +2,17 @@
 
 use groebot_runtime::angles::{FAR_APART, acute, unfold};
 use groebot_runtime::conditions::are_fulfilled;
-use groebot_runtime::lanes::{Lanes, Mask};
-use groebot_runtime::mechanism::Inputs;
+use groebot_runtime::lanes::{Doubt, Lanes, Mask};
 use groebot_runtime::registers::in_widest;
-use groebot_runtime::storage::{Array, Storage};
+use groebot_runtime::storage::Storage;
 use groebot_runtime::{Facts, Joint, Mechanism, Number};
 
 use super::super::batch::Solved;
 use super::super::code::Line;
 use super::super::shaped::Shaped;
 use super::super::spare::with_spare;
-use super::execute::{Outcome, Row, WIDTH};
-use super::{Ordinary, is_unsound, misses};
+use super::execute::{MOST, Outcome, Row, WIDTH};
+use super::{MOST_INPUTS, Ordinary, is_unsound, misses};
 
 /// The candidates of several targets.
 struct Bundle<'a> {
@@ -22,12 +21,12 @@ struct Bundle<'a> {
     outcome: Outcome,
     /// By candidate and joint.
     q: &'a mut [Row],
-    residuals: [Lanes<WIDTH>; super::execute::MOST],
+    residuals: [Lanes<WIDTH>; MOST],
 }
 
 impl<S: Storage + 'static> Shaped<S> {
     /// Passes the solutions of ordinary targets to `take`, and the other targets by their index to `other`, in order.
-    #[inline(always)]
+    #[inline]
     pub fn solve_bundles<T>(
         &self,
         own: &Ordinary,
@@ -38,23 +37,12 @@ impl<S: Storage + 'static> Shaped<S> {
     ) {
         let facts = self.facts();
         with_spare(|memory: &mut Vec<Row>| {
-            own.many.begin(memory);
-            let (size, joints) = (own.many.size, facts.joints.len());
-            let room = size + own.branches.len() * joints;
-            if memory.len() < room {
-                memory.resize(room, Line(Lanes([0.0; WIDTH])));
-            }
-            let (memory, q) = memory.split_at_mut(size);
-            let residuals = [Lanes([0.0; WIDTH]); super::execute::MOST];
-            let mut bundle = Bundle { own, memory, outcome: Outcome::NONE, q, residuals };
+            let mut bundle = Bundle::new(own, &facts, memory);
             for (number, targets) in targets.chunks(facts.inputs * WIDTH).enumerate() {
-                in_widest(
-                    #[inline(always)]
-                    || bundle.find::<Self>(&facts, targets),
-                );
+                bundle.find(&facts, targets);
                 for lane in 0..targets.len() / facts.inputs {
                     if bundle.outcome.doubt.0[lane] == 0 {
-                        bundle.pass(joints, lane, |solved| take(context, solved));
+                        bundle.pass(facts.joints.len(), lane, |solved| take(context, solved));
                         take(context, Solved::Target { refused: None });
                     } else {
                         other(context, number * WIDTH + lane);
@@ -65,17 +53,49 @@ impl<S: Storage + 'static> Shaped<S> {
     }
 }
 
-impl Bundle<'_> {
+impl<'a> Bundle<'a> {
+    #[inline]
+    fn new(own: &'a Ordinary, facts: &Facts<'_>, memory: &'a mut Vec<Row>) -> Self {
+        let (size, candidates) = (own.many.size, own.branches.len() * facts.joints.len());
+        own.many.begin(memory, size + candidates);
+        let (memory, q) = memory.split_at_mut(size);
+        Bundle { own, memory, outcome: Outcome::NONE, q, residuals: [Lanes([0.0; WIDTH]); MOST] }
+    }
+
     /// Finds the solutions of 1 to [`WIDTH`] targets.
-    #[inline(always)]
-    fn find<M: Mechanism>(&mut self, facts: &Facts<'_>, targets: &[f64]) {
-        let last = targets.len() / facts.inputs - 1;
-        let number = |i: usize, lane: usize| targets[lane.min(last) * facts.inputs + i];
-        let mut target: Inputs<M, Lanes<WIDTH>> =
-            Array::by(facts.inputs, |i| Lanes(std::array::from_fn(|lane| number(i, lane))));
-        let fine = are_fulfilled(facts.conditions, target.as_mut());
-        self.own.many.run(self.memory, |index| target.as_ref()[index], &mut self.outcome);
+    #[inline]
+    fn find(&mut self, facts: &Facts<'_>, targets: &[f64]) {
+        let fine = in_widest(
+            #[inline(always)]
+            || self.load(facts, targets),
+        );
+        self.own.many.run(self.memory, &mut self.outcome);
         self.outcome.doubt = self.outcome.doubt | fine.inverted();
+        in_widest(
+            #[inline(always)]
+            || self.assess(facts),
+        );
+    }
+
+    /// Writes the numbers of targets, and returns whether they are valid.
+    #[inline(always)]
+    fn load(&mut self, facts: &Facts<'_>, targets: &[f64]) -> Mask<WIDTH> {
+        let mut numbers = [Lanes([0.0; WIDTH]); MOST_INPUTS];
+        let numbers = &mut numbers[..facts.inputs];
+        for lane in 0..WIDTH {
+            let first = lane * facts.inputs % targets.len();
+            for (row, number) in numbers.iter_mut().zip(&targets[first..]) {
+                row.0[lane] = *number;
+            }
+        }
+        let fine = are_fulfilled(facts.conditions, numbers);
+        self.own.many.load(self.memory, |index| numbers[index]);
+        fine
+    }
+
+    /// Marks targets that are not ordinary, and computes the joint values.
+    #[inline(always)]
+    fn assess(&mut self, facts: &Facts<'_>) {
         for row in 0..self.own.many.rows {
             let [residual, relative] = self.own.measure(&self.own.many, self.memory, row);
             for twin in 0..self.own.twins {
@@ -90,7 +110,7 @@ impl Bundle<'_> {
     }
 
     #[inline(always)]
-    fn roots(&self, candidate: usize) -> groebot_runtime::lanes::Doubt<WIDTH> {
+    fn roots(&self, candidate: usize) -> Doubt<WIDTH> {
         self.outcome.roots[candidate / 2]
     }
 

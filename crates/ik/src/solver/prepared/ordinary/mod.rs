@@ -19,6 +19,9 @@ use self::graph::Graph;
 use self::plan::{Abreast, Plan, Rows};
 use crate::solver::{Facts, Layout};
 
+/// The maximal number of a target's numbers.
+const MOST_INPUTS: usize = 32;
+
 /// The code for ordinary targets.
 #[derive(Clone, Debug)]
 pub(super) struct Ordinary {
@@ -36,7 +39,7 @@ pub(super) struct Ordinary {
 impl Ordinary {
     /// The code of a program whose targets may be solved several at once.
     pub fn new(layout: &Layout<'_>, facts: &Facts) -> Option<Self> {
-        let graph = Graph::new(layout, facts)?;
+        let graph = Graph::new(layout, facts).filter(|_| (1..=MOST_INPUTS).contains(&facts.inputs))?;
         let (candidates, twins) = (facts.candidates, facts.twins);
         let roots = graph.roots - usize::from(twins == 2);
         let of_size = |size| (0..facts.equations).filter(|&equation| facts.size_of[equation] == size).collect();

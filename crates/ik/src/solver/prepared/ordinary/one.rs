@@ -12,12 +12,15 @@ use super::super::shaped::Shaped;
 use super::super::spare::with_spare;
 use super::execute::{MOST, Outcome, Row, WIDTH};
 use super::{Ordinary, is_unsound, misses};
+use crate::solver::MAX_JOINTS;
 
 /// The maximal number of rows of candidates.
 const ROWS: usize = MOST / WIDTH;
 
 /// The candidates of a target.
 struct Candidates {
+    /// By joint and row.
+    q: [[Lanes<WIDTH>; ROWS]; MAX_JOINTS],
     dead: [Mask<WIDTH>; ROWS],
     measures: [[Lanes<WIDTH>; 2]; ROWS],
 }
@@ -28,32 +31,55 @@ impl<S: Storage + 'static> Shaped<S> {
     #[inline]
     pub fn solve_ordinary(&self, target: &Inputs<Self>, out: &mut [runtime::Solution<Self>]) -> Option<usize> {
         let own = self.ordinary.as_ref()?;
+        let mut found = Candidates {
+            q: [[Lanes([0.0; WIDTH]); ROWS]; MAX_JOINTS],
+            dead: [Mask::NONE; ROWS],
+            measures: [[Lanes([0.0; WIDTH]); 2]; ROWS],
+        };
+        own.are_found(&self.facts(), target.as_ref(), &mut found).then_some(())?;
+        let (joints, mut count) = (self.facts().joints.len(), 0);
+        for (k, &branch) in own.branches.iter().enumerate() {
+            let (row, lane) = (k / WIDTH, k % WIDTH);
+            if found.dead[row].0[lane] == 0 {
+                let [residual, relative] = [found.measures[row][0].0[lane], found.measures[row][1].0[lane]];
+                let q = Array::by(joints, |i| found.q[i][row].0[lane]);
+                *out.get_mut(count)? =
+                    runtime::Solution { q, residual, relative, branch, chosen: false, free: 0, settled: true };
+                count += 1;
+            }
+        }
+        Some(count)
+    }
+}
+
+impl Ordinary {
+    /// Finds the candidates of a target. Returns false if the target is not ordinary.
+    #[inline]
+    fn are_found(&self, facts: &Facts<'_>, target: &[f64], found: &mut Candidates) -> bool {
         with_spare(|memory: &mut Vec<Row>| {
-            own.one.begin(memory);
+            let mut outcome = Outcome::NONE;
+            self.one.begin(memory, self.one.size);
+            self.one.load(memory, |index| Lanes([target[index]; WIDTH]));
+            self.one.run(memory, &mut outcome);
             in_widest(
                 #[inline(always)]
-                || self.solve_in(own, memory, target, out),
+                || self.are_ordinary(memory, facts, &outcome, found) && self.are_apart(memory, facts, found),
             )
         })
     }
 
+    /// Measures the candidates and computes their joint values. Returns false if one is in doubt.
     #[inline(always)]
-    fn solve_in(
-        &self,
-        own: &Ordinary,
-        memory: &mut [Row],
-        target: &Inputs<Self>,
-        out: &mut [runtime::Solution<Self>],
-    ) -> Option<usize> {
-        let (facts, mut outcome) = (self.facts(), Outcome::NONE);
-        own.one.run(memory, |index| Lanes([target.as_ref()[index]; WIDTH]), &mut outcome);
-        let found = own.candidates(memory, &facts, &outcome)?;
-        own.are_apart(memory, &facts, &found).then_some(())?;
-        let joints = facts.joints.len();
-        let mut q = [[Lanes([0.0; WIDTH]); ROWS]; crate::solver::MAX_JOINTS];
-        for (q, joint) in q.iter_mut().zip(facts.joints) {
-            for row in 0..own.one.rows {
-                let number = |place: usize| memory[own.one.places[place].at(row)].0;
+    fn are_ordinary(&self, memory: &[Row], facts: &Facts<'_>, outcome: &Outcome, found: &mut Candidates) -> bool {
+        let mut doubt = outcome.doubt;
+        for row in 0..self.one.rows {
+            let roots = outcome.roots[row];
+            found.dead[row] = roots.dead;
+            found.measures[row] = self.measure(&self.one, memory, row);
+            let mut wrong = roots.close | misses(found.measures[row][1]);
+            let number = |place: usize| memory[self.one.places[place].at(row)].0;
+            for (joint, q) in facts.joints.iter().zip(&mut found.q) {
+                wrong = wrong | is_unsound(*joint, number);
                 q[row] = match *joint {
                     Joint::Angle([c, s]) => {
                         let (c, s) = (number(c), number(s));
@@ -62,47 +88,9 @@ impl<S: Storage + 'static> Shaped<S> {
                     Joint::Length(place) => number(place),
                 };
             }
-        }
-        let mut count = 0;
-        for (k, &branch) in own.branches.iter().enumerate() {
-            let (row, lane) = (k / WIDTH, k % WIDTH);
-            if found.dead[row].0[lane] != 0 {
-                continue;
-            }
-            let [residual, relative] = found.measures[row];
-            let q = Array::by(joints, |i| q[i][row].0[lane]);
-            *out.get_mut(count)? = runtime::Solution {
-                q,
-                residual: residual.0[lane],
-                relative: relative.0[lane],
-                branch,
-                chosen: false,
-                free: 0,
-                settled: true,
-            };
-            count += 1;
-        }
-        Some(count)
-    }
-}
-
-impl Ordinary {
-    /// The candidates, if none is in doubt.
-    #[inline(always)]
-    fn candidates(&self, memory: &[Row], facts: &Facts<'_>, outcome: &Outcome) -> Option<Candidates> {
-        let mut found = Candidates { dead: [Mask::NONE; ROWS], measures: [[Lanes([0.0; WIDTH]); 2]; ROWS] };
-        let mut doubt = outcome.doubt;
-        for row in 0..self.one.rows {
-            let roots = outcome.roots[row];
-            found.dead[row] = roots.dead;
-            found.measures[row] = self.measure(&self.one, memory, row);
-            let mut wrong = roots.close | misses(found.measures[row][1]);
-            for joint in facts.joints {
-                wrong = wrong | is_unsound(*joint, |place| memory[self.one.places[place].at(row)].0);
-            }
             doubt = doubt | (wrong & roots.dead.inverted());
         }
-        (!doubt.any()).then_some(found)
+        !doubt.any()
     }
 
     /// Whether each two candidates differ in at least one angle.
