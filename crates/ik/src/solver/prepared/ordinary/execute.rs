@@ -82,7 +82,6 @@ impl Plan {
                 Action::Roots => both_roots(step, memory, outcome),
                 Action::FirstRoot => first_root(step, memory, outcome),
                 Action::OwnRoot { bit } => own_root(step, bit, memory, outcome),
-                Action::Spread => spread(step, memory),
                 Action::Guard => {
                     let (tests, is_usual) = &self.guards[step.target as usize];
                     guard(step, tests, *is_usual, memory, outcome);
@@ -206,13 +205,6 @@ fn own_root(step: &Step, bit: u32, memory: &mut [Row], outcome: &mut Outcome) {
         let is_high = Mask(std::array::from_fn(|lane| if is_high(lane) { !0 } else { 0 }));
         outcome.roots[row] = outcome.roots[row] | doubt;
         memory[step.target as usize + row].0 = high.or(low, is_high);
-    }
-}
-
-#[inline(always)]
-fn spread(step: &Step, memory: &mut [Row]) {
-    for row in 0..step.rows as usize {
-        memory[step.target as usize + row] = memory[step.operands[0].at(row)];
     }
 }
 

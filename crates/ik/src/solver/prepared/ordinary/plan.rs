@@ -63,8 +63,6 @@ pub(super) enum Action {
     },
     /// Guards.
     Guard,
-    /// A copy with as many rows as candidates have.
-    Spread,
 }
 
 /// A comparison by addresses.
@@ -128,8 +126,6 @@ struct Planner<'a> {
     sums: Vec<Option<Value>>,
     /// By value, its first row.
     first: Vec<u32>,
-    /// By value, the first row of its copy with as many rows as candidates have.
-    spread: Vec<Option<u32>>,
     /// By the logarithm of a number of rows, first rows that are used again.
     free: Vec<Vec<u32>>,
     size: usize,
@@ -160,8 +156,7 @@ impl<'a> Planner<'a> {
             }
         }
         let first = vec![u32::MAX; graph.nodes.len()];
-        let spread = vec![None; graph.nodes.len()];
-        Planner { graph, abreast, reads, sums, first, spread, free: vec![Vec::new(); usize::BITS as usize], size: 0 }
+        Planner { graph, abreast, reads, sums, first, free: vec![Vec::new(); usize::BITS as usize], size: 0 }
     }
 
     /// The number of rows of a value after this number of roots.
@@ -233,12 +228,10 @@ impl<'a> Planner<'a> {
                 Node::Result(..) if self.is_fused(value) => {}
                 Node::Result(kind, operands) => {
                     let (action, operands) = self.fused(kind, operands);
-                    let step = self.step(action, value, &operands, &mut plan);
-                    plan.steps.push(step);
+                    plan.steps.push(self.step(action, value, &operands));
                 }
                 Node::Root { constant, typical, number } => {
-                    let step = self.step(self.root(number), value, &[constant, typical], &mut plan);
-                    plan.steps.push(step);
+                    plan.steps.push(self.step(self.root(number), value, &[constant, typical]));
                 }
             }
         }
@@ -277,47 +270,14 @@ impl<'a> Planner<'a> {
         }
     }
 
-    fn step(&mut self, action: Action, value: Value, operands: &[Value], plan: &mut Plan) -> Step {
+    fn step(&mut self, action: Action, value: Value, operands: &[Value]) -> Step {
         // Both roots are found from rows without them.
         let rows = if let Action::Roots = action { self.rows_of(value) / 2 } else { self.rows_of(value) };
-        let is_product =
-            !matches!(action, Action::Compute(_) | Action::Roots | Action::FirstRoot | Action::OwnRoot { .. });
-        let spreads = is_product && rows == plan.rows && rows > 1;
-        let mut read = |index: usize| {
-            let operand = operands.get(index).copied().unwrap_or(operands[0]);
-            if spreads { self.read_spread(operand, plan) } else { self.read(operand, rows) }
-        };
-        let addresses = std::array::from_fn(&mut read);
+        let read = |index: usize| self.read(operands.get(index).copied().unwrap_or(operands[0]), rows);
+        let addresses = std::array::from_fn(read);
         operands.iter().for_each(|&operand| self.release(operand));
         let target = self.take(value);
         Step { action, rows: narrow(rows), target, operands: addresses }
-    }
-
-    /// A value as it is read for each row of candidates, from a copy if it has fewer rows: rows of equal number need no arithmetic of indices.
-    fn read_spread(&mut self, value: Value, plan: &mut Plan) -> Rows {
-        let own = self.read(value, plan.rows);
-        if own.shift == 0 {
-            return own;
-        }
-        let first = self.spread[value].unwrap_or_else(|| {
-            let first = narrow(self.size);
-            self.size += plan.rows;
-            match self.graph.nodes[value] {
-                Node::Constant(bits) => {
-                    let rows = (first..).take(plan.rows);
-                    plan.constants.extend(rows.map(|row| (row, f64::from_bits(bits))));
-                }
-                _ => plan.steps.push(Step {
-                    action: Action::Spread,
-                    rows: narrow(plan.rows),
-                    target: first,
-                    operands: [own; 4],
-                }),
-            }
-            first
-        });
-        self.spread[value] = Some(first);
-        Rows { first, shift: 0 }
     }
 
     fn guard(&mut self, guards: &Guards, plan: &mut Plan) {
