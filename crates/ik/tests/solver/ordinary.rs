@@ -6,6 +6,9 @@ use groebot_ik::solver::{Program, Solved, Solver};
 use groebot_robot::kinematics::Solution;
 use groebot_runtime::angles::angle;
 
+/// The bits of joint values and of the residual, and the branch.
+type Row = (Vec<u64>, u64, usize);
+
 fn programs() -> Vec<Program> {
     let names = ["ur5", "puma560", "irb120", "stanford", "scara", "nao_left_leg", "rh0_left_leg", "teo_leg"];
     named(&names).into_iter().map(|stored| stored.program).collect()
@@ -25,7 +28,7 @@ fn targets(program: &Program, solver: &Solver) -> Vec<f64> {
 }
 
 /// What a batch reports: by target its solutions, or none if it is refused.
-fn batch(solver: &Solver, targets: &[f64]) -> Vec<Option<Vec<(Vec<u64>, u64, usize)>>> {
+fn batch(solver: &Solver, targets: &[f64]) -> Vec<Option<Vec<Row>>> {
     let (mut all, mut own) = (Vec::new(), Vec::new());
     let take = |solved: Solved<'_>| match solved {
         Solved::Answer { q, residual, branch, .. } => own.push((bits(q), residual.to_bits(), branch)),
@@ -42,7 +45,7 @@ fn bits(q: &[f64]) -> Vec<u64> {
     q.iter().map(|value| value.to_bits()).collect()
 }
 
-fn row(solution: &Solution) -> (Vec<u64>, u64, usize) {
+fn row(solution: &Solution) -> Row {
     (bits(&solution.q), solution.residual.to_bits(), solution.branch)
 }
 
