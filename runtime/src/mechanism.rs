@@ -1,7 +1,6 @@
 //! Interface of a derived solver ([`Mechanism`]) and the receiver of its candidates ([`Candidates`]).
 
 use crate::number::{Guard, Number, Roots, With};
-use crate::solution::Solution;
 use crate::storage::{Array, Storage};
 
 /// A row with one value for each joint of a mechanism.
@@ -44,11 +43,11 @@ pub trait Mechanism: Sized {
     where
         f64: With<N>;
 
-    /// Writes all solutions of an ordinary target to the front of `out`, ordered by branch, and returns their number. The target fulfils its conditions. `None`
-    /// where the target is not ordinary or `out` is too short, and for a mechanism without separate code for ordinary targets.
+    /// Passes all solutions of an ordinary target to `take`, ordered by branch: joint values, the residual and the relative residual, and the branch. The target
+    /// fulfils its conditions. Returns false, and passes none, where the target is not ordinary, and for a mechanism without separate code for ordinary targets.
     #[inline(always)]
-    fn ordinary(&self, _target: &Inputs<Self>, _out: &mut [Solution<Self>]) -> Option<usize> {
-        None
+    fn ordinary(&self, _target: &Inputs<Self>, _take: &mut impl FnMut(Joints<Self>, [f64; 2], usize)) -> bool {
+        false
     }
 
     /// The values that the equations compare with parameters, or NaN where equations are of another kind.

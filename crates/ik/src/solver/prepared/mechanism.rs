@@ -1,6 +1,5 @@
 //! The interface of the run time to a mechanism, implemented for a prepared program.
 
-use groebot_runtime as runtime;
 use groebot_runtime::mechanism::{Equations, Inputs, Joints, Parameters, Places, Sizes};
 use groebot_runtime::storage::{Array, Storage};
 use groebot_runtime::{Candidates, Facts, Found, Mechanism, Number, Preference, Short, With};
@@ -57,8 +56,8 @@ impl<S: Storage + 'static> Mechanism for Shaped<S> {
     }
 
     #[inline]
-    fn ordinary(&self, target: &Inputs<Self>, out: &mut [runtime::Solution<Self>]) -> Option<usize> {
-        self.solve_ordinary(target, out)
+    fn ordinary(&self, target: &Inputs<Self>, take: &mut impl FnMut(Joints<Self>, [f64; 2], usize)) -> bool {
+        self.solve_ordinary(target, take)
     }
 
     fn tip<N: Number>(&self, at: &Places<Self, N>) -> Equations<Self, N>

@@ -1,9 +1,8 @@
 //! One target, with its candidates in lanes.
 
-use groebot_runtime as runtime;
 use groebot_runtime::angles::{FAR_APART, acute, unfold};
 use groebot_runtime::lanes::{Lanes, Mask};
-use groebot_runtime::mechanism::Inputs;
+use groebot_runtime::mechanism::{Inputs, Joints};
 use groebot_runtime::registers::in_widest;
 use groebot_runtime::storage::{Array, Storage};
 use groebot_runtime::{Facts, Joint, Mechanism, Number};
@@ -26,29 +25,27 @@ struct Candidates {
 }
 
 impl<S: Storage + 'static> Shaped<S> {
-    /// Writes the solutions of a target that fulfils its conditions, and returns their number; `None` if the target is
-    /// not ordinary, or there is not enough room.
+    /// Same as [`Mechanism::ordinary`].
     #[inline]
-    pub fn solve_ordinary(&self, target: &Inputs<Self>, out: &mut [runtime::Solution<Self>]) -> Option<usize> {
-        let own = self.ordinary.as_ref()?;
+    pub fn solve_ordinary(&self, target: &Inputs<Self>, take: &mut impl FnMut(Joints<Self>, [f64; 2], usize)) -> bool {
+        let Some(own) = &self.ordinary else { return false };
         let mut found = Candidates {
             q: [[Lanes([0.0; WIDTH]); ROWS]; MAX_JOINTS],
             dead: [Mask::NONE; ROWS],
             measures: [[Lanes([0.0; WIDTH]); 2]; ROWS],
         };
-        own.are_found(&self.facts(), target.as_ref(), &mut found).then_some(())?;
-        let (joints, mut count) = (self.facts().joints.len(), 0);
+        if !own.are_found(&self.facts(), target.as_ref(), &mut found) {
+            return false;
+        }
+        let joints = self.facts().joints.len();
         for (k, &branch) in own.branches.iter().enumerate() {
             let (row, lane) = (k / WIDTH, k % WIDTH);
             if found.dead[row].0[lane] == 0 {
                 let [residual, relative] = [found.measures[row][0].0[lane], found.measures[row][1].0[lane]];
-                let q = Array::by(joints, |i| found.q[i][row].0[lane]);
-                *out.get_mut(count)? =
-                    runtime::Solution { q, residual, relative, branch, chosen: false, free: 0, settled: true };
-                count += 1;
+                take(Array::by(joints, |i| found.q[i][row].0[lane]), [residual, relative], branch);
             }
         }
-        Some(count)
+        true
     }
 }
 
