@@ -6,6 +6,7 @@
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
 use crate::number::{Number, With};
+use crate::tolerances::MERGING;
 
 /// Coefficients of `P`, constant term first.
 pub const SERIES: [f64; 11] = [
@@ -23,6 +24,8 @@ pub const SERIES: [f64; 11] = [
 ];
 /// `tan(pi/8)`.
 pub const EIGHTH: f64 = 0.41421356237309503;
+/// Two angles differ by more than `tolerances::MERGING.blur` where the cosine of their difference is below this.
+pub const FAR_APART: f64 = 1.0 - 0.52 * MERGING.blur * MERGING.blur;
 /// Difference between `pi/4` and the nearest double.
 pub const REST: f64 = 3.061616997868383e-17;
 /// Differences between `pi/2`, `pi` and their nearest doubles.

@@ -2,6 +2,7 @@
 
 use core::ops::Range;
 
+use crate::angles::FAR_APART;
 use crate::approach::{Approaches, LANES};
 use crate::effort::{MILD, STEEP};
 use crate::measure::{Fits, joints, tell_apart};
@@ -12,10 +13,7 @@ use crate::rejected::{IsolatedSolutions, KnownMembers, Merged, RejectedKinds};
 use crate::solution::{Error, Pairs, Solution};
 use crate::starts::Starts;
 use crate::storage::Array;
-use crate::tolerances::{ACCEPTANCE, MERGING};
-
-/// Two angles differ by more than `MERGING.blur` where the cosine of their difference is below this.
-pub(crate) const FAR_APART: f64 = 1.0 - 0.52 * MERGING.blur * MERGING.blur;
+use crate::tolerances::ACCEPTANCE;
 
 /// The solutions found so far.
 pub(crate) struct Answers<'a, M: Mechanism> {

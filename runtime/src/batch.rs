@@ -1,9 +1,8 @@
 //! Many targets, several at once in the lanes of vector registers. Main type: [`Bundle`].
 
-use crate::angles::{acute, unfold};
-use crate::answers::FAR_APART;
+use crate::angles::{FAR_APART, acute, unfold};
 use crate::approach::lead;
-use crate::conditions::fulfil;
+use crate::conditions::are_fulfilled;
 use crate::effort::{MILD, MOST_STEPS};
 use crate::lanes::{Lanes, Mask};
 use crate::mechanism::{
@@ -276,13 +275,7 @@ impl<M: Mechanism, const W: usize> Bundle<M, W> {
         let number = |i: usize, lane: usize| targets[lane.min(targets.len() - 1)].as_ref()[i];
         let mut target: Inputs<M, Lanes<W>> =
             Array::by(facts.inputs, |i| Lanes(core::array::from_fn(|lane| number(i, lane))));
-        let mut fine = Mask([!0; W]);
-        for value in target.as_ref() {
-            fine = fine & value.abs().at_most(Lanes::of(f64::MAX));
-        }
-        for condition in facts.conditions {
-            fine = fine & fulfil(*condition, target.as_mut());
-        }
+        let fine = are_fulfilled(facts.conditions, target.as_mut());
         let p = mechanism.parameters(&target);
         (self.doubt, self.count) = (fine.inverted(), 0);
         mechanism.walk(&p, self);

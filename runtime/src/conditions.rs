@@ -22,6 +22,22 @@ pub(crate) fn conform(conditions: &[Condition], target: &mut [f64]) -> Result<()
     Ok(())
 }
 
+/// Projects several targets onto their conditions. True where their numbers are finite and near the conditions.
+#[inline(always)]
+pub fn are_fulfilled<N: Number>(conditions: &[Condition], target: &mut [N]) -> N::Truth
+where
+    f64: With<N>,
+{
+    let mut fine = N::of(0.0).at_most(N::of(0.0));
+    for value in target.iter() {
+        fine = fine & value.abs().at_most(N::of(f64::MAX));
+    }
+    for condition in conditions {
+        fine = fine & fulfil(*condition, target);
+    }
+    fine
+}
+
 /// Takes one Newton step towards a condition. False when the target is far from it.
 #[inline(always)]
 pub(crate) fn fulfil<N: Number>(condition: Condition, target: &mut [N]) -> N::Truth

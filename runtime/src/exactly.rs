@@ -17,6 +17,16 @@ pub(crate) fn solve_ideal<M: Mechanism>(
 ) -> Result<usize, Error> {
     let mut target = target.clone();
     conform(mechanism.facts().conditions, target.as_mut())?;
+    let mut count = 0;
+    let is_ordinary = mechanism.ordinary(&target, &mut |q, [residual, relative], branch| {
+        if let Some(place) = out.get_mut(count) {
+            *place = Solution { q, residual, relative, branch, chosen: false, free: 0, settled: true };
+        }
+        count += 1;
+    });
+    if is_ordinary && count <= out.len() {
+        return Ok(count);
+    }
     let p = mechanism.parameters(&target);
     let mut answers = Answers::new(Problem::new(mechanism, &p, steps), out, None);
     answers.find()?;

@@ -61,7 +61,7 @@ impl<const W: usize> Mask<W> {
     /// The negation.
     #[inline(always)]
     #[must_use]
-    pub(crate) fn inverted(self) -> Self {
+    pub fn inverted(self) -> Self {
         Mask(self.0.map(|bits| !bits))
     }
 
@@ -73,7 +73,7 @@ impl<const W: usize> Mask<W> {
 
     /// Whether it is true in any lane.
     #[inline(always)]
-    pub(crate) fn any(self) -> bool {
+    pub fn any(self) -> bool {
         self.0.iter().fold(0, |all, bits| all | bits) != 0
     }
 }
@@ -97,8 +97,10 @@ impl<const W: usize> BitOr for Mask<W> {
 /// Lanes in which a candidate does not exist, because an equation has no root, and lanes in which earlier roots are close to each other.
 #[derive(Clone, Copy, Debug)]
 pub struct Doubt<const W: usize> {
-    pub(crate) dead: Mask<W>,
-    pub(crate) close: Mask<W>,
+    /// Where a candidate does not exist.
+    pub dead: Mask<W>,
+    /// Where earlier roots are close to each other.
+    pub close: Mask<W>,
 }
 
 impl<const W: usize> BitOr for Doubt<W> {

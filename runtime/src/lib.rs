@@ -13,7 +13,7 @@ mod answers;
 mod approach;
 mod arithmetic;
 mod batch;
-mod conditions;
+pub mod conditions;
 mod connection;
 pub mod counters;
 mod curve;

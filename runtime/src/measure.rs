@@ -2,8 +2,7 @@
 
 use core::array::from_fn;
 
-use crate::angles::{acute, unfold};
-use crate::answers::FAR_APART;
+use crate::angles::{FAR_APART, acute, unfold};
 use crate::approach::abreast;
 use crate::counters::Phase;
 use crate::lanes::Lanes;

@@ -45,6 +45,13 @@ pub trait Mechanism: Sized {
     where
         f64: With<N>;
 
+    /// Passes all solutions of an ordinary target to `take`, ordered by branch: joint values, the residual and the relative residual, and the branch. The target
+    /// fulfils its conditions. Returns false, and passes none, where the target is not ordinary, and for a mechanism without separate code for ordinary targets.
+    #[inline(always)]
+    fn ordinary(&self, _target: &Inputs<Self>, _take: &mut impl FnMut(Joints<Self>, [f64; 2], usize)) -> bool {
+        false
+    }
+
     /// The values that the equations compare with parameters, or NaN where equations are of another kind.
     fn tip<N: Number>(&self, _at: &Places<Self, N>) -> Equations<Self, N>
     where

@@ -203,7 +203,7 @@ pub(crate) fn is_solved_abreast(program: &Program) -> bool {
 }
 
 /// The case of a block that runs at ordinary targets, if there is only one and guards detect the others.
-fn usual(block: &Block) -> Option<&Case> {
+pub(crate) fn usual(block: &Block) -> Option<&Case> {
     let is_detected = |case: &Case| !case.open && case.pivot.is_none() && !(case.is_rare() && case.guards.is_empty());
     let mut usual = block.cases.iter().filter(|case| !case.is_rare());
     let first = usual.next().filter(|_| usual.next().is_none() && block.cases.iter().all(is_detected))?;

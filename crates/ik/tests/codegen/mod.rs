@@ -36,7 +36,7 @@ pub fn random() -> impl FnMut(f64, f64) -> f64 {
 }
 
 /// Targets with invalid numbers, and the zero target.
-fn odd(inputs: usize) -> Vec<Vec<f64>> {
+pub fn odd(inputs: usize) -> Vec<Vec<f64>> {
     let mut targets = vec![vec![0.0; inputs], vec![-0.0; inputs], vec![1e300; inputs], vec![1e-300; inputs]];
     for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         targets.extend((0..inputs).map(|place| (0..inputs).map(|i| if i == place { value } else { 0.1 }).collect()));

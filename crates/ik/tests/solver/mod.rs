@@ -7,6 +7,7 @@ mod damaged;
 mod derivatives;
 mod follow;
 mod formats;
+mod ordinary;
 mod placed;
 mod redundant;
 mod redundant_batch;

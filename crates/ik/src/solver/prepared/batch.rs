@@ -209,7 +209,24 @@ impl<S: Storage + 'static> Shaped<S> {
     }
 
     /// Reports the solutions of these targets.
-    fn piece(&self, targets: &[f64], take: &mut impl FnMut(Solved<'_>)) {
+    fn piece<T: FnMut(Solved<'_>)>(&self, targets: &[f64], take: &mut T) {
+        let targets_of = |index: usize| &targets[index * self.facts().inputs..][..self.facts().inputs];
+        let Some(own) = &self.ordinary else {
+            if self.facts().nearby.is_some() {
+                return self.bundles(targets, take);
+            }
+            (0..targets.len() / self.facts().inputs).for_each(|index| self.single(targets_of(index), take));
+            return;
+        };
+        let (mut pass, mut single) = (
+            |take: &mut T, solved: Solved<'_>| take(solved),
+            |take: &mut T, index| self.single(targets_of(index), take),
+        );
+        self.solve_bundles(own, targets, take, &mut pass, &mut single);
+    }
+
+    /// Reports the solutions of these targets, by the run time's code for many targets.
+    fn bundles(&self, targets: &[f64], take: &mut impl FnMut(Solved<'_>)) {
         let facts = self.facts();
         let rows: Vec<Inputs<Self>> =
             targets.chunks(facts.inputs).map(|row| Array::by(facts.inputs, |i| row[i])).collect();
@@ -230,5 +247,20 @@ impl<S: Storage + 'static> Shaped<S> {
                 done += solved;
             });
         }
+    }
+
+    /// Reports the solutions of one target.
+    #[cold]
+    #[inline(never)]
+    fn single(&self, target: &[f64], take: &mut impl FnMut(Solved<'_>)) {
+        let row: Inputs<Self> = Array::by(target.len(), |i| target[i]);
+        self.with_room(self.facts().capacity, |room| {
+            let found = Solve::solve(self, &row, room);
+            for answer in &room[..found.unwrap_or(0)] {
+                let &runtime::Solution { ref q, residual, branch, free, settled, .. } = answer;
+                take(Solved::Answer { q: q.as_ref(), residual, branch, free, settled });
+            }
+            take(Solved::Target { refused: found.err().map(|error| self.refused(target, error)) });
+        });
     }
 }

@@ -9,20 +9,22 @@ use super::spare::with_spare;
 use crate::solver::{Demand, Instruction, Operand, Operation};
 
 /// The operation of an instruction.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Kind {
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Kind {
     Add,
     Sub,
     Mul,
     Div,
     Abs,
     Sqrt,
+    /// The greater one of a number and the magnitude of another.
+    Greater,
 }
 
 impl Kind {
-    const ALL: [Kind; 6] = [Kind::Add, Kind::Sub, Kind::Mul, Kind::Div, Kind::Abs, Kind::Sqrt];
+    const ALL: [Kind; 7] = [Kind::Add, Kind::Sub, Kind::Mul, Kind::Div, Kind::Abs, Kind::Sqrt, Kind::Greater];
 
-    fn of(operation: &Operation) -> Self {
+    pub fn of(operation: &Operation) -> Self {
         match operation {
             Operation::Add(..) => Kind::Add,
             Operation::Sub(..) => Kind::Sub,
@@ -82,6 +84,7 @@ impl Code {
                 Kind::Div => each(row, memory, |a, b| a / b),
                 Kind::Abs => each(row, memory, |a, _| a.abs()),
                 Kind::Sqrt => each(row, memory, |a, _| a.root()),
+                Kind::Greater => each(row, memory, |a, b| a.greater(b.abs())),
             }
             start = end;
         }
@@ -246,7 +249,7 @@ fn registers(line: &Instruction) -> impl Iterator<Item = usize> + use<> {
     [register(a), b.and_then(register)].into_iter().flatten()
 }
 
-fn narrow(place: usize) -> u32 {
+pub(super) fn narrow(place: usize) -> u32 {
     u32::try_from(place).expect("a program's values are fewer than 2^32")
 }
 

@@ -56,6 +56,11 @@ impl<S: Storage + 'static> Mechanism for Shaped<S> {
         });
     }
 
+    #[inline]
+    fn ordinary(&self, target: &Inputs<Self>, take: &mut impl FnMut(Joints<Self>, [f64; 2], usize)) -> bool {
+        self.solve_ordinary(target, take)
+    }
+
     fn tip<N: Number>(&self, at: &Places<Self, N>) -> Equations<Self, N>
     where
         f64: With<N>,

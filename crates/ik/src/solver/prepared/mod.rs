@@ -9,6 +9,7 @@ mod code;
 mod equations;
 mod mechanism;
 mod members;
+mod ordinary;
 mod outline;
 mod parameters;
 mod reached_numbers;

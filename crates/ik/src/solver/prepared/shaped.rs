@@ -12,6 +12,7 @@ use groebot_runtime::{Mechanism, Solve};
 use super::Nearest;
 use super::blocks::Blocks;
 use super::equations::Equations;
+use super::ordinary::Ordinary;
 use super::parameters::Parameters;
 use super::spare::with_spare;
 use super::storage::SixJoints;
@@ -35,6 +36,8 @@ pub(super) struct Shaped<S> {
     pub(super) kinds: Kinds,
     pub(super) parameters: Parameters,
     pub(super) blocks: Blocks,
+    /// Separate code for ordinary targets.
+    pub(super) ordinary: Option<Ordinary>,
     pub(super) tip: Equations,
     pub(super) values: Equations,
     /// The values as described, if the equations are those of the ideal mechanism.
@@ -115,6 +118,7 @@ impl<S: Storage + 'static> Shaped<S> {
             kinds: Kinds::new(&facts),
             parameters: Parameters::new(program),
             blocks: Blocks::new(layout),
+            ordinary: Ordinary::new(layout, &facts),
             tip: Equations::new(layout, &tip(layout)),
             values: Equations::new(layout, &checks.residuals),
             described: program.described.as_ref().map_or_else(Equations::default, |described| {
@@ -308,6 +312,10 @@ fn solution<S: Storage + 'static>(found: &runtime::Solution<Shaped<S>>) -> Solut
 }
 
 /// The joints whose bits are set.
+#[inline]
 fn joints_of(bits: u32) -> Vec<usize> {
+    if bits == 0 {
+        return Vec::new();
+    }
     (0..u32::BITS as usize).filter(|joint| bits >> joint & 1 == 1).collect()
 }
