@@ -94,6 +94,8 @@ pub struct Interpreted {
     solver: Solver,
     shape: Shape,
     has_rotation: bool,
+    /// Whether the source of the mechanism selects a solution.
+    has_preference: bool,
 }
 
 impl Interpreted {
@@ -106,7 +108,8 @@ impl Interpreted {
             capacity: program.capacity,
         };
         let has_rotation = program.conditions.iter().any(|condition| matches!(condition, Condition::Rotation(_)));
-        Interpreted { solver: program.solver(), shape, has_rotation }
+        let has_preference = program.preference.is_some();
+        Interpreted { solver: program.solver(), shape, has_rotation, has_preference }
     }
 
     /// Adds the solutions of one target. Returns the reason if it has none, or not all.
@@ -139,8 +142,19 @@ impl Kernel for Interpreted {
     }
 
     fn solve(&self, target: &[f64], take: &mut dyn FnMut(Answer<'_>)) -> Result<()> {
-        self.solver.solve_numbers(target)?.iter().for_each(|solution| take(solution.into()));
-        Ok(())
+        if self.has_preference {
+            self.solver.solve_numbers(target)?.iter().for_each(|solution| take(solution.into()));
+            return Ok(());
+        }
+        // Without memory for each solution.
+        let mut end = None;
+        self.solver.solve_each(target, |solved| match solved {
+            Solved::Answer { q, residual, branch, free, settled } => {
+                take(Answer { q, residual, branch, free, chosen: false, settled });
+            }
+            Solved::Target { refused } => end = refused,
+        })?;
+        end.map_or(Ok(()), Err)
     }
 
     fn solve_within(&self, target: &[f64], limits: &[[f64; 2]]) -> Result<Vec<Solution>> {

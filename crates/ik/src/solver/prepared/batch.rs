@@ -194,7 +194,11 @@ impl<S: Storage + 'static> Shaped<S> {
     /// Same as [`Solver::solve_each`].
     pub fn solve_each(&self, targets: &[f64], take: &mut impl FnMut(Solved<'_>)) -> Result<()> {
         self.check_count(targets)?;
-        targets.chunks(PIECE * self.facts().inputs).for_each(|piece| self.piece(piece, take));
+        if targets.len() == self.facts().inputs {
+            self.single(targets, take);
+        } else {
+            targets.chunks(PIECE * self.facts().inputs).for_each(|piece| self.piece(piece, take));
+        }
         Ok(())
     }
 
@@ -250,7 +254,6 @@ impl<S: Storage + 'static> Shaped<S> {
     }
 
     /// Reports the solutions of one target.
-    #[cold]
     #[inline(never)]
     fn single(&self, target: &[f64], take: &mut impl FnMut(Solved<'_>)) {
         let row: Inputs<Self> = Array::by(target.len(), |i| target[i]);
