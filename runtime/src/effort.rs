@@ -43,8 +43,8 @@ pub const TWIN_WITHIN: f64 = 32.0;
 /// equal derivatives. A candidate that needs more is polished with damping.
 pub const APPROACHES: usize = 3;
 /// Where the relative residual of a candidate is at most this, the first step usually leads to within `ACCEPTANCE.rounding`, and its end is measured. Elsewhere
-/// only the end of the second step is measured.
-pub const CHORD: f64 = 1e-8;
+/// only the end of the second step is measured. The square root of the machine precision: a Newton step squares the residual.
+pub const CHORD: f64 = 1.0 / 67_108_864.0;
 /// Where the normal equations of several candidates at once show that a second solution is farther than this factor times [`TWIN_WITHIN`], or the equations
 /// change by more than this factor times [`TWIN`], the search for it is left out. The factor is for the difference between these estimates and exact ones.
 pub const DOUBTFUL: f64 = 2.0;

@@ -101,7 +101,7 @@
 #define GB_STEEP R(400.0)
 #define GB_MILD R(4.0)
 #define GB_TURN R(1e-2)
-#define GB_CHORD GB_EITHER(1e-8, 1e-4)
+#define GB_CHORD GB_EITHER(1.0 / 67108864.0, 1e-4)
 #define GB_TWIN R(10.0)
 #define GB_TWIN_AT R(2.0)
 #define GB_TWIN_WITHIN R(32.0)

@@ -174,7 +174,7 @@ impl<'a> Planner<'a> {
         }
     }
 
-    /// A value as it is read for this number of rows.
+    /// The place of a value that is read for this number of rows.
     fn read(&self, value: Value, rows: usize) -> Rows {
         Rows { first: self.first[value], shift: (rows / self.rows_of(value)).trailing_zeros() }
     }
