@@ -6,7 +6,7 @@ set -euo pipefail
 cd "$(dirname "$0")"
 
 # [bytes]
-limit=10000000
+limit=8500000
 dist=${DIST:-$PWD/../dist}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
