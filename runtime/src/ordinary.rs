@@ -78,12 +78,12 @@ fn many<M: Mechanism, R: Receiver<M>, const W: usize>(mechanism: &M, targets: &[
     let mut bundle = Bundle::<M, W>::empty(&facts);
     for (first, targets) in targets.chunks(W).enumerate() {
         bundle.find(mechanism, &facts, targets, true);
-        for lane in 0..targets.len() {
+        for (lane, numbers) in targets.iter().enumerate() {
             let target = W * first + lane;
             if bundle.doubt.0[lane] == 0 {
                 receiver.take(target, candidates(&facts, &bundle, lane));
             } else {
-                one(mechanism, target, &targets[lane], receiver);
+                one(mechanism, target, numbers, receiver);
             }
         }
     }
@@ -155,6 +155,9 @@ fn are_distinct<M: Mechanism>(problem: &mut Problem<'_, M>, [a, b]: [Joints<M>; 
     let is_one = facts.is_close(a.as_ref(), b.as_ref(), 0, MERGING.joints);
     !is_one && is_near && problem.regularity(&b) > PIVOTS.isolated
 }
+
+/// The joint values and the residuals of candidates.
+type Measured<M> = (Joints<M, Abreast<M>>, Fits<M>);
 
 /// The candidates of one target.
 struct Single<M: Mechanism> {
@@ -232,7 +235,7 @@ impl<M: Mechanism> Single<M> {
     /// The joint values and residuals of the candidates if the target is ordinary.
     #[inline(always)]
     #[allow(unsafe_code)]
-    fn answers(&self, problem: &mut Problem<'_, M>) -> Option<(Joints<M, Abreast<M>>, Fits<M>)> {
+    fn answers(&self, problem: &mut Problem<'_, M>) -> Option<Measured<M>> {
         let facts = problem.facts();
         if !self.is_ordinary || facts.isolated.is_some_and(|most| self.count > most) {
             return None;
@@ -247,12 +250,12 @@ impl<M: Mechanism> Single<M> {
 
     #[cfg(all(target_arch = "x86_64", feature = "std"))]
     #[target_feature(enable = "avx2")]
-    fn answers_by_4(&self, problem: &mut Problem<'_, M>) -> Option<(Joints<M, Abreast<M>>, Fits<M>)> {
+    fn answers_by_4(&self, problem: &mut Problem<'_, M>) -> Option<Measured<M>> {
         self.answers_by::<4>(problem)
     }
 
     #[inline(always)]
-    fn answers_by<const W: usize>(&self, problem: &mut Problem<'_, M>) -> Option<(Joints<M, Abreast<M>>, Fits<M>)> {
+    fn answers_by<const W: usize>(&self, problem: &mut Problem<'_, M>) -> Option<Measured<M>> {
         let facts = problem.facts();
         let are_all = self.is_usual && !facts.runs.is_empty() && self.count == facts.candidates;
         let q = joints::<M, W>(&facts, &self.at, are_all);
