@@ -127,9 +127,12 @@ fn pairs_and_batches_are_single_solutions() {
     }
 }
 
+/// Branch, joint values and residual.
+type Listed = (usize, [f64; 2], f64);
+
 /// By target, its solutions if it is ordinary.
 #[derive(Default)]
-struct Collected(Vec<Option<Vec<(usize, [f64; 2], f64)>>>);
+struct Collected(Vec<Option<Vec<Listed>>>);
 
 impl Receiver<Arm> for Collected {
     fn take(&mut self, target: usize, candidates: impl ExactSizeIterator<Item = Candidate<Arm>>) {
