@@ -180,7 +180,7 @@ impl Moved {
         self.angle.max(self.distance / reach)
     }
 
-    /// Describes the difference without what is only rounding in doubles: `turned by 1.0e-5 rad and shifted by 2.0e-5 m`.
+    /// Describes the difference, without rounding errors of doubles: `turned by 1.0e-5 rad and shifted by 2.0e-5 m`.
     fn words(&self, reach: f64, unit: LengthUnit) -> String {
         let turn = (self.angle > SAME).then(|| format!("turned by {:.1e} rad", self.angle));
         let shift =
