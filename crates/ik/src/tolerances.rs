@@ -30,16 +30,6 @@ pub(crate) struct Reach {
     pub beyond: f64,
 }
 
-/// The closest joint values of targets out of reach.
-pub(crate) struct Closest {
-    /// The decrease of the error that a step of Newton's method predicts at a minimum, relative to the error: it is more than rounding of the gradient.
-    pub flat: f64,
-    /// A negative eigenvalue of the Hessian at a minimum, relative to its largest entry. Differences of gradients give it to a flat direction.
-    pub curved: f64,
-    /// The relative difference of two errors of one minimum.
-    pub same: f64,
-}
-
 /// The check of solvers. It is a second witness, so that it shares no tolerance with the solvers.
 pub(crate) struct Witness {
     /// A solution satisfies an equation when its value is at most this, relative to the sum of its terms' sizes, or to the reach, or in rad.
@@ -80,8 +70,6 @@ pub(crate) const DERIVED_STRATA: DerivedStrata = DerivedStrata { close: 1e-5, lo
 pub(crate) const IKFAST: Ikfast = Ikfast { single: 1e-6 };
 /// Tolerances of maps.
 pub(crate) const REACH: Reach = Reach { beyond: 1e-6 };
-/// Tolerances of the closest joint values.
-pub(crate) const CLOSEST: Closest = Closest { flat: 1e-9, curved: 1e-5, same: 1e-6 };
 /// Tolerances of the check.
 pub(crate) const WITNESS: Witness = Witness {
     residual: 1e-11,
