@@ -141,14 +141,29 @@ pub fn lent(tokens: &[Token], module: &[String]) -> Vec<(String, Vec<String>)> {
     leaves.map(|leaf| (leaf.name, resolve(&leaf.path, module.to_vec()).unwrap_or_else(|| local(&leaf.path)))).collect()
 }
 
+/// The module that the other crates re-export groebot-solver as.
+pub const SOLVER: &str = "solver";
+
 /// Whether `name` at the start of a path is a crate of this repository. No two crates have a module with the same name.
 fn is_crate(name: &str) -> bool {
-    matches!(name, "crate" | "groebot" | "groebot_algebra" | "groebot_robot" | "groebot_ik" | "groebot_humanoid")
+    matches!(
+        name,
+        "crate"
+            | "groebot"
+            | "groebot_algebra"
+            | "groebot_robot"
+            | "groebot_solver"
+            | "groebot_ik"
+            | "groebot_humanoid"
+    )
 }
 
 /// `path` from the crate root, resolved in the module `here`; `None` if it starts with another crate or a local name.
 fn resolve(path: &[String], here: Vec<String>) -> Option<Vec<String>> {
+    let in_solver = here.first().is_some_and(|top| top == SOLVER);
     let mut base = match path.first()?.as_str() {
+        "groebot_solver" => vec![SOLVER.to_owned()],
+        "crate" if in_solver => vec![SOLVER.to_owned()],
         name if is_crate(name) => Vec::new(),
         "self" | "super" => here,
         _ => return None,
