@@ -148,7 +148,7 @@ impl Kernel for Interpreted {
         }
         // Without memory for each solution.
         let mut end = None;
-        self.solver.solve_each(target, |solved| match solved {
+        self.solver.solve_each(target, &mut |solved| match solved {
             Solved::Answer { q, residual, branch, free, settled } => {
                 take(Answer { q, residual, branch, free, chosen: false, settled });
             }
@@ -183,7 +183,7 @@ impl Kernel for Interpreted {
                 *status = targets.row(first + row, target);
             }
             let (mut row, mut begun, mut are_settled) = (0, sink.taken, true);
-            let each = |solved: Solved<'_>| match solved {
+            let mut each = |solved: Solved<'_>| match solved {
                 Solved::Answer { q, residual, branch, free, settled } => {
                     are_settled &= settled;
                     add(sink, Answer { q, residual, branch, free, chosen: false, settled });
@@ -199,7 +199,7 @@ impl Kernel for Interpreted {
                     (row, begun, are_settled) = (row + 1, sink.taken, true);
                 }
             };
-            if self.solver.solve_each(&numbers[..size * inputs], each).is_err() {
+            if self.solver.solve_each(&numbers[..size * inputs], &mut each).is_err() {
                 return;
             }
         }

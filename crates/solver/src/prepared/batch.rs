@@ -192,7 +192,7 @@ impl<S: Storage + 'static> Shaped<S> {
     }
 
     /// Same as [`Solver::solve_each`].
-    pub fn solve_each(&self, targets: &[f64], take: &mut impl FnMut(Solved<'_>)) -> Result<()> {
+    pub fn solve_each(&self, targets: &[f64], take: &mut dyn FnMut(Solved<'_>)) -> Result<()> {
         self.check_count(targets)?;
         if targets.len() == self.facts().inputs {
             self.single(targets, take);
@@ -213,24 +213,16 @@ impl<S: Storage + 'static> Shaped<S> {
     }
 
     /// Reports the solutions of these targets.
-    fn piece<T: FnMut(Solved<'_>)>(&self, targets: &[f64], take: &mut T) {
-        let targets_of = |index: usize| &targets[index * self.facts().inputs..][..self.facts().inputs];
-        let Some(own) = &self.ordinary else {
-            if self.facts().nearby.is_some() {
-                return self.bundles(targets, take);
-            }
-            (0..targets.len() / self.facts().inputs).for_each(|index| self.single(targets_of(index), take));
-            return;
-        };
-        let (mut pass, mut single) = (
-            |take: &mut T, solved: Solved<'_>| take(solved),
-            |take: &mut T, index| self.single(targets_of(index), take),
-        );
-        self.solve_bundles(own, targets, take, &mut pass, &mut single);
+    fn piece(&self, targets: &[f64], take: &mut dyn FnMut(Solved<'_>)) {
+        match &self.ordinary {
+            Some(own) => self.solve_bundles(own, targets, take),
+            None if self.facts().nearby.is_some() => self.bundles(targets, take),
+            None => targets.chunks(self.facts().inputs).for_each(|target| self.single(target, take)),
+        }
     }
 
     /// Reports the solutions of these targets, by the run time's code for many targets.
-    fn bundles(&self, targets: &[f64], take: &mut impl FnMut(Solved<'_>)) {
+    fn bundles(&self, targets: &[f64], take: &mut dyn FnMut(Solved<'_>)) {
         let facts = self.facts();
         let rows: Vec<Inputs<Self>> =
             targets.chunks(facts.inputs).map(|row| Array::by(facts.inputs, |i| row[i])).collect();
@@ -255,7 +247,7 @@ impl<S: Storage + 'static> Shaped<S> {
 
     /// Reports the solutions of one target.
     #[inline(never)]
-    fn single(&self, target: &[f64], take: &mut impl FnMut(Solved<'_>)) {
+    pub(super) fn single(&self, target: &[f64], take: &mut dyn FnMut(Solved<'_>)) {
         let row: Inputs<Self> = Array::by(target.len(), |i| target[i]);
         self.with_room(self.facts().capacity, |room| {
             let found = Solve::solve(self, &row, room);

@@ -56,7 +56,6 @@ impl<S: Storage + 'static> Mechanism for Shaped<S> {
         });
     }
 
-    #[inline]
     fn ordinary(&self, target: &Inputs<Self>, take: &mut impl FnMut(Joints<Self>, [f64; 2], usize)) -> bool {
         self.solve_ordinary(target, take)
     }

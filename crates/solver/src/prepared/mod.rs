@@ -115,8 +115,6 @@ impl Solver {
     /// # Errors
     /// [`crate::ErrorKind::BadValue`] for a wrong number of values, NaN or infinity, or a condition that does not hold
     /// ([`Program::conditions`]); [`crate::ErrorKind::Unsupported`] if the target is on a stratum that could not be derived.
-    // A crate that is optimised for speed compiles its own copy, also if this crate is optimised for size.
-    #[inline]
     pub fn solve_numbers(&self, target: &[f64]) -> Result<Vec<Solution>> {
         shaped!(self, shaped => shaped.solve(target))
     }
@@ -245,12 +243,12 @@ impl Solver {
     }
 
     /// Same as [`Solver::solve_batch`], but on the calling thread only, with all results passed to `take` in order: for
-    /// callers with their own threads and arrays. (It is compiled in the calling crate, with its options.)
+    /// callers with their own threads and arrays.
     ///
     /// # Errors
     /// As [`Solver::solve_batch`].
-    pub fn solve_each(&self, targets: &[f64], mut take: impl FnMut(Solved<'_>)) -> Result<()> {
-        shaped!(self, shaped => shaped.solve_each(targets, &mut take))
+    pub fn solve_each(&self, targets: &[f64], take: &mut dyn FnMut(Solved<'_>)) -> Result<()> {
+        shaped!(self, shaped => shaped.solve_each(targets, take))
     }
 }
 

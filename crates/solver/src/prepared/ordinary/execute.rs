@@ -52,9 +52,7 @@ impl Plan {
         }
     }
 
-    /// Runs the code in the widest registers of the processor. (A crate that is optimised for speed compiles its own
-    /// copy, also if this crate is optimised for size.)
-    #[inline]
+    /// Runs the code in the widest registers of the processor.
     pub fn run(&self, memory: &mut [Row], outcome: &mut Outcome) {
         in_widest(
             #[inline(always)]

@@ -25,27 +25,19 @@ struct Bundle<'a> {
 }
 
 impl<S: Storage + 'static> Shaped<S> {
-    /// Passes the solutions of ordinary targets to `take`, and the other targets by their index to `other`, in order.
-    #[inline]
-    pub fn solve_bundles<T>(
-        &self,
-        own: &Ordinary,
-        targets: &[f64],
-        context: &mut T,
-        take: &mut impl FnMut(&mut T, Solved<'_>),
-        other: &mut impl FnMut(&mut T, usize),
-    ) {
+    /// Reports the solutions of these targets: those of ordinary ones from this code, the others one by one.
+    pub fn solve_bundles(&self, own: &Ordinary, targets: &[f64], take: &mut dyn FnMut(Solved<'_>)) {
         let facts = self.facts();
         with_spare(|memory: &mut Vec<Row>| {
             let mut bundle = Bundle::new(own, &facts, memory);
-            for (number, targets) in targets.chunks(facts.inputs * WIDTH).enumerate() {
+            for targets in targets.chunks(facts.inputs * WIDTH) {
                 bundle.find(&facts, targets);
-                for lane in 0..targets.len() / facts.inputs {
+                for (lane, target) in targets.chunks(facts.inputs).enumerate() {
                     if bundle.outcome.doubt.0[lane] == 0 {
-                        bundle.pass(facts.joints.len(), lane, |solved| take(context, solved));
-                        take(context, Solved::Target { refused: None });
+                        bundle.pass(facts.joints.len(), lane, take);
+                        take(Solved::Target { refused: None });
                     } else {
-                        other(context, number * WIDTH + lane);
+                        self.single(target, take);
                     }
                 }
             }
@@ -54,7 +46,6 @@ impl<S: Storage + 'static> Shaped<S> {
 }
 
 impl<'a> Bundle<'a> {
-    #[inline]
     fn new(own: &'a Ordinary, facts: &Facts<'_>, memory: &'a mut Vec<Row>) -> Self {
         let (size, candidates) = (own.many.size, own.branches.len() * facts.joints.len());
         own.many.begin(memory, size + candidates);
@@ -63,7 +54,6 @@ impl<'a> Bundle<'a> {
     }
 
     /// Finds the solutions of 1 to [`WIDTH`] targets.
-    #[inline]
     fn find(&mut self, facts: &Facts<'_>, targets: &[f64]) {
         let fine = in_widest(
             #[inline(always)]
@@ -177,7 +167,7 @@ impl<'a> Bundle<'a> {
 
     /// Passes the solutions of the target in a lane to `take`.
     #[inline(always)]
-    fn pass(&self, joints: usize, lane: usize, mut take: impl FnMut(Solved<'_>)) {
+    fn pass(&self, joints: usize, lane: usize, take: &mut dyn FnMut(Solved<'_>)) {
         let mut q = [0.0; crate::MAX_JOINTS];
         let q = &mut q[..joints];
         for (k, &branch) in self.own.branches.iter().enumerate() {

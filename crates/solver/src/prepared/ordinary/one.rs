@@ -51,7 +51,6 @@ impl<S: Storage + 'static> Shaped<S> {
 
 impl Ordinary {
     /// Finds the candidates of a target. Returns false if the target is not ordinary.
-    #[inline]
     fn are_found(&self, facts: &Facts<'_>, target: &[f64], found: &mut Candidates) -> bool {
         with_spare(|memory: &mut Vec<Row>| {
             let mut outcome = Outcome::NONE;
