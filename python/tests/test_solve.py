@@ -117,11 +117,15 @@ def test_a_compiled_solver_and_its_program_agree_to_the_last_bit(random):
         compiled = Solver.named(name)
         interpreted = Solver.from_json((DERIVATIONS / name / "5_program.json").read_text().replace(f'"{name}"', '"other"', 1))
         assert not interpreted.compiled
-        q = random.uniform(-2, 2, (300, len(compiled.joints)))
-        given = q[:, [compiled.joints.index(joint) for joint in compiled.given]]
-        one, other = (s.solve_batch(compiled.forward(q), given=given) for s in (compiled, interpreted))
-        assert np.array_equal(one.q, other.q) and np.array_equal(one.starts, other.starts), name
-        assert np.array_equal(one.branch, other.branch) and np.array_equal(one.residual, other.residual)
+        ordinary = random.uniform(-2, 2, (300, len(compiled.joints)))
+        # One joint or several next to a right angle, where arms are singular, and all joints in steps of 15 degrees.
+        right, off = random.integers(-1, 3, ordinary.shape) * np.pi / 2, 10 ** random.uniform(-12, -2, ordinary.shape)
+        near = np.where(random.random(ordinary.shape) < 0.3, right + off, ordinary)
+        for q in (ordinary, near, np.radians(15 * random.integers(-11, 13, ordinary.shape))):
+            given = q[:, [compiled.joints.index(joint) for joint in compiled.given]]
+            one, other = (s.solve_batch(compiled.forward(q), given=given) for s in (compiled, interpreted))
+            for field in ("q", "starts", "branch", "residual", "free", "status"):
+                assert np.array_equal(getattr(one, field), getattr(other, field)), (name, field)
 
 
 def test_load_takes_folders_and_files(tmp_path):
