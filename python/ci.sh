@@ -32,8 +32,8 @@ size=$(stat --format %s "$wheel")
 printf '%s: %d bytes\n' "$(basename "$wheel")" "$size"
 if [ "$profile" = release ]; then
     export GROEBOT_RELEASE=1
-    if [ "$size" -gt 8500000 ]; then
-        echo "the wheel is larger than 8.5 MB"
+    if [ "$size" -gt 8200000 ]; then
+        echo "the wheel is larger than 8.2 MB"
         exit 1
     fi
 fi

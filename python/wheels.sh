@@ -6,7 +6,7 @@ set -euo pipefail
 cd "$(dirname "$0")"
 
 # [bytes]
-limit=8500000
+limit=8200000
 dist=${DIST:-$PWD/../dist}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
