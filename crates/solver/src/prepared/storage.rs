@@ -6,36 +6,32 @@ use smallvec::SmallVec;
 
 /// A row of values, up to `L` of them without allocation.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row<T, const L: usize>(SmallVec<[T; L]>)
-where
-    [T; L]: smallvec::Array<Item = T>;
+pub struct Row<T, const L: usize>(SmallVec<[T; L]>);
 
-macro_rules! rows {
-    ($($length:literal)*) => {
-        $(
-            impl<T> AsRef<[T]> for Row<T, $length> {
-                #[inline(always)]
-                fn as_ref(&self) -> &[T] {
-                    &self.0
-                }
-            }
-            impl<T> AsMut<[T]> for Row<T, $length> {
-                #[inline(always)]
-                fn as_mut(&mut self) -> &mut [T] {
-                    &mut self.0
-                }
-            }
-            impl<T: Clone> Array<T> for Row<T, $length> {
-                #[inline(always)]
-                fn by(length: usize, value: impl FnMut(usize) -> T) -> Self {
-                    Row((0..length).map(value).collect())
-                }
-            }
-        )*
-    };
+impl<T, const L: usize> AsRef<[T]> for Row<T, L> {
+    #[inline(always)]
+    fn as_ref(&self) -> &[T] {
+        &self.0
+    }
 }
 
-rows!(2 8 12 16);
+impl<T, const L: usize> AsMut<[T]> for Row<T, L> {
+    #[inline(always)]
+    fn as_mut(&mut self) -> &mut [T] {
+        &mut self.0
+    }
+}
+
+impl<T: Clone, const L: usize> Array<T> for Row<T, L> {
+    #[inline(always)]
+    fn by(length: usize, value: impl FnMut(usize) -> T) -> Self {
+        // An array is filled faster than a list.
+        if length == L {
+            return Row(SmallVec::from_buf(std::array::from_fn(value)));
+        }
+        Row((0..length).map(value).collect())
+    }
+}
 
 /// Arrays for a pose of six joints, which usually has eight solutions, and rows for the other data of a program.
 #[derive(Clone, Copy, Debug)]
@@ -68,5 +64,5 @@ impl Storage for Dynamic {
     type Shorts<T: Clone> = Row<T, 8>;
     type Candidates<T: Clone> = Row<T, 8>;
     type Answers<T: Clone> = Row<T, 8>;
-    type Triangle = Row<f64, 16>;
+    type Triangle = Row<f64, 128>;
 }
