@@ -94,10 +94,10 @@ impl<M: Mechanism> Answers<'_, M> {
         }
         let triangle = self.problem.triangle(&end, 0.0, 0);
         let regularity = triangle.regularity();
-        if regularity <= PIVOTS.regular {
-            if self.keep_moving(found, &(end.clone(), fit), regularity) {
-                return;
-            }
+        if self.keep_moving(found, &(end.clone(), fit), regularity) {
+            return;
+        }
+        if regularity <= PIVOTS.weak {
             self.begin_curve(found, &end);
         }
         self.keep(found, (end.clone(), fit));
@@ -115,10 +115,11 @@ impl<M: Mechanism> Answers<'_, M> {
         joint.is_some()
     }
 
-    /// Whether a curve goes through a solution of a nearby mechanism, or through the end of the steps from one. Such a curve is followed.
+    /// Whether a curve goes through a solution of a nearby mechanism, or through the end of the steps from one. Such a curve is followed. Solutions elsewhere on it
+    /// may exist although this one is regular, where the ideal mechanism is next to two self-motions.
     fn is_curve(&mut self, found: &Found, (q, fit): &End<M>, regularity: f64) -> bool {
         let is_singular =
-            (ACCEPTANCE.rounding..=STRATA.near).contains(&fit.relative) || fit.accepted && regularity <= PIVOTS.regular;
+            (ACCEPTANCE.rounding..=STRATA.near).contains(&fit.relative) || fit.accepted && regularity <= PIVOTS.weak;
         is_singular && self.begin_curve(found, q)
     }
 
