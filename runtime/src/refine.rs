@@ -43,7 +43,8 @@ impl<M: Mechanism> Answers<'_, M> {
         if triangle.is_some() && self.keep_moving(found, &end, regularity) {
             return;
         }
-        if is_nearby && self.leads_to_curve(found, (&q, is_beside), &end, regularity) {
+        let is_weak = regularity <= Arithmetic::sqrt(missed);
+        if is_nearby && self.leads_to_curve(found, (&q, is_beside), &end, is_weak) {
             return self.miss(end);
         }
         if (ACCEPTANCE.rounding..=STRATA.near).contains(&miss) {
@@ -71,9 +72,9 @@ impl<M: Mechanism> Answers<'_, M> {
         found: &Found,
         (q, is_beside): (&Joints<M>, bool),
         end: &End<M>,
-        regularity: f64,
+        is_weak: bool,
     ) -> bool {
-        if is_beside && self.is_curve(found, end, regularity) && end.1.relative >= ACCEPTANCE.rounding {
+        if is_beside && self.is_curve(found, end, is_weak) && end.1.relative >= ACCEPTANCE.rounding {
             return true;
         }
         if self.problem.facts().farthest(q.as_ref(), end.0.as_ref()) > MERGING.blur {
@@ -97,7 +98,7 @@ impl<M: Mechanism> Answers<'_, M> {
         if self.keep_moving(found, &(end.clone(), fit), regularity) {
             return;
         }
-        if regularity <= PIVOTS.weak {
+        if regularity <= Arithmetic::sqrt(missed) {
             self.begin_curve(found, &end);
         }
         self.keep(found, (end.clone(), fit));
@@ -117,9 +118,8 @@ impl<M: Mechanism> Answers<'_, M> {
 
     /// Whether a curve goes through a solution of a nearby mechanism, or through the end of the steps from one. Such a curve is followed. Solutions elsewhere on it
     /// may exist although this one is regular, where the ideal mechanism is next to two self-motions.
-    fn is_curve(&mut self, found: &Found, (q, fit): &End<M>, regularity: f64) -> bool {
-        let is_singular =
-            (ACCEPTANCE.rounding..=STRATA.near).contains(&fit.relative) || fit.accepted && regularity <= PIVOTS.weak;
+    fn is_curve(&mut self, found: &Found, (q, fit): &End<M>, is_weak: bool) -> bool {
+        let is_singular = (ACCEPTANCE.rounding..=STRATA.near).contains(&fit.relative) || fit.accepted && is_weak;
         is_singular && self.begin_curve(found, q)
     }
 

@@ -59,11 +59,12 @@ static bool gb_keep_moving(gb_answers *all, const gb_found_1 *found, const gb_re
     return moving.free != 0;
 }
 
-/* Whether a curve goes through a solution of a nearby mechanism, or through the end of the steps from one. Such a curve is followed. */
-static bool gb_is_curve(gb_answers *all, const gb_found_1 *found, const gb_real *q, const gb_fit *fit, gb_real regularity)
+/* Whether a curve goes through a solution of a nearby mechanism, or through the end of the steps from one. Such a curve is followed. Where the ideal mechanism
+ * is next to two self-motions, solutions elsewhere on it may exist although this one is regular. */
+static bool gb_is_curve(gb_answers *all, const gb_found_1 *found, const gb_real *q, const gb_fit *fit, bool is_weak)
 {
     const bool is_valley = gb_is_between(fit->relative, GB_ACCEPTANCE_ROUNDING, GB_STRATA_NEAR);
-    const bool is_singular = is_valley || (fit->accepted && regularity <= GB_PIVOTS_REGULAR);
+    const bool is_singular = is_valley || (fit->accepted && is_weak);
     return is_singular && gb_begin_curve(all, found, q);
 }
 
@@ -79,10 +80,10 @@ GB_LINKAGE void gb_arrive(gb_answers *all, size_t number, const gb_found_1 *foun
     }
     gb_make_triangle(&all->problem, approach->end, R(0.0), 0, &triangle);
     const gb_real regularity = gb_regularity_in(&triangle);
-    if (regularity <= GB_PIVOTS_REGULAR) {
-        if (gb_keep_moving(all, found, approach->end, &approach->fit, regularity)) {
-            return;
-        }
+    if (gb_keep_moving(all, found, approach->end, &approach->fit, regularity)) {
+        return;
+    }
+    if (regularity <= gb_square_root(approach->missed)) {
         gb_begin_curve(all, found, approach->end);
     }
     gb_keep(all, found, approach->end, &approach->fit);
@@ -105,9 +106,9 @@ static void gb_start_beyond(gb_answers *all, const gb_found_1 *found, const gb_r
 
 /* Searches for curves next to the end of the steps from a candidate, and next to the candidate if that is far away. Returns whether the steps ended on a
  * curve. */
-static bool gb_leads_to_curve(gb_answers *all, const gb_found_1 *found, const gb_real *q, bool is_beside, const gb_end *end, gb_real regularity)
+static bool gb_leads_to_curve(gb_answers *all, const gb_found_1 *found, const gb_real *q, bool is_beside, const gb_end *end, bool is_weak)
 {
-    if (is_beside && gb_is_curve(all, found, end->q, &end->fit, regularity) && end->fit.relative >= GB_ACCEPTANCE_ROUNDING) {
+    if (is_beside && gb_is_curve(all, found, end->q, &end->fit, is_weak) && end->fit.relative >= GB_ACCEPTANCE_ROUNDING) {
         return true;
     }
     if (gb_farthest(all->problem.mechanism, q, end->q) > GB_MERGING_BLUR) {
@@ -146,7 +147,7 @@ GB_LINKAGE void gb_refine(gb_answers *all, size_t number, const gb_found_1 *foun
             return;
         }
     }
-    if (is_nearby && gb_leads_to_curve(all, found, q, is_beside, &end, regularity)) {
+    if (is_nearby && gb_leads_to_curve(all, found, q, is_beside, &end, regularity <= gb_square_root(missed))) {
         gb_miss(all, end.q, &end.fit);
         return;
     }
