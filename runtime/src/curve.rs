@@ -89,12 +89,14 @@ impl<M: Mechanism> Answers<'_, M> {
             self.dip(&walk.found, [before, &walk.home, behind]);
             self.branch(&walk.found, [before, &walk.home, behind], starts);
         }
+        // A place without neighbours shows no self-motion.
+        let is_curve = sides.iter().any(Option::is_some);
         for side in sides.into_iter().flatten() {
             if self.leads_home(&mut walk, side, starts) {
                 break;
             }
         }
-        if walk.most <= WHOLE {
+        if is_curve && walk.most <= WHOLE {
             self.keep_whole_curve(found, held, walk.best.q);
         }
     }

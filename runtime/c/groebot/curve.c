@@ -256,7 +256,8 @@ static void gb_walk_curve(gb_answers *all, gb_starts *starts, const gb_found_1 *
     if (!(is_there[0] && gb_leads_home(all, starts, &curve, &sides[0])) && is_there[1]) {
         gb_leads_home(all, starts, &curve, &sides[1]);
     }
-    if (curve.most <= GB_CURVE_WHOLE) {
+    /* A place without neighbours shows no self-motion. */
+    if ((is_there[0] || is_there[1]) && curve.most <= GB_CURVE_WHOLE) {
         gb_keep_whole_curve(all, found, held, curve.best.q);
     }
 }
