@@ -18,7 +18,9 @@ const PACES: usize = 400;
 /// Iterations of false position between two steps.
 const NARROWED: usize = 24;
 /// Where the least pivot of the joints that follow has a minimum below this, another curve may cross.
-const CROSSING: f64 = 2e-2;
+const CROSSING: f64 = 5e-2;
+/// Maximal least pivot of the joints that follow at a regular solution next to a crossing.
+const AT_CROSSING: f64 = 2e-2;
 /// Maximal number of parabolas that search for the least residual on a curve.
 const PARABOLAS: usize = 12;
 /// Where the residual at a parabola's vertex is more than this share of the one before, the curve may have no zero.
@@ -50,10 +52,20 @@ impl<M: Mechanism> Answers<'_, M> {
     /// Stores a candidate next to which there is a curve, for [`Answers::walk_curves`] after all candidates. Returns whether there is one.
     #[cold]
     pub fn begin_curve(&mut self, found: &Found, q: &Joints<M>) -> bool {
+        self.begin_curve_within(found, q, 1.0)
+    }
+
+    /// Same as [`Answers::begin_curve`], if another curve crosses it next to the candidate.
+    pub fn begin_crossing_curve(&mut self, found: &Found, q: &Joints<M>) -> bool {
+        self.begin_curve_within(found, q, AT_CROSSING)
+    }
+
+    /// Same as [`Answers::begin_curve`], if the least pivot of the joints that follow is at most `pivot` there.
+    fn begin_curve_within(&mut self, found: &Found, q: &Joints<M>, pivot: f64) -> bool {
         let _phase = Phase::Curve.begin();
         // Numbers that follow from no joint belong to one candidate, so they cannot be stored.
         let place = if self.problem.facts().has_extras { None } else { self.problem.start(q, found.free) };
-        let Some((start, held)) = place else { return false };
+        let Some((start, held)) = place.filter(|(start, _)| start.pivot <= pivot) else { return false };
         let free = if is_in(found.free, held) { found.free } else { 0 };
         if self.starts.as_ref().is_some_and(Starts::is_full) {
             self.walk_curves();

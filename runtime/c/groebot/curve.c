@@ -8,7 +8,8 @@
 /* The constants are those of curve.rs, where they are documented. */
 #define GB_CURVE_PACES 400
 #define GB_CURVE_NARROWED 24
-#define GB_CURVE_CROSSING R(2e-2)
+#define GB_CURVE_CROSSING R(5e-2)
+#define GB_CURVE_AT_CROSSING R(2e-2)
 #define GB_CURVE_PARABOLAS 12
 #define GB_CURVE_FALLEN R(0.5)
 #define GB_CURVE_STALLS 2
@@ -287,14 +288,15 @@ GB_LINKAGE void gb_walk_curves(gb_answers *all)
     }
 }
 
-/* Stores a candidate next to which there is a curve, to follow it after all candidates. Returns whether there is one. */
-static bool gb_begin_curve(gb_answers *all, const gb_found_1 *found, const gb_real *q)
+/* Stores a candidate next to which there is a curve, to follow it after all candidates, if the least pivot of the joints that follow is at most `pivot` there.
+ * Returns whether there is one. */
+static bool gb_begin_curve_within(gb_answers *all, const gb_found_1 *found, const gb_real *q, gb_real pivot)
 {
     const gb_mechanism *m = all->problem.mechanism;
     gb_spot start;
     size_t held;
     /* Numbers that follow from no joint belong to one candidate, so they cannot be stored. */
-    if (m->has_extras || !gb_start_on_curve(&all->problem, q, found->free, &start, &held)) {
+    if (m->has_extras || !gb_start_on_curve(&all->problem, q, found->free, &start, &held) || !(start.pivot <= pivot)) {
         return false;
     }
     if (all->starts.count == GB_STARTS) {
@@ -306,4 +308,16 @@ static bool gb_begin_curve(gb_answers *all, const gb_found_1 *found, const gb_re
     all->starts.is_open[k] = true;
     gb_copy(all->starts.q[k], start.q, m->joints);
     return true;
+}
+
+/* Stores a candidate next to which there is a curve, to follow it after all candidates. Returns whether there is one. */
+static bool gb_begin_curve(gb_answers *all, const gb_found_1 *found, const gb_real *q)
+{
+    return gb_begin_curve_within(all, found, q, R(1.0));
+}
+
+/* Same as gb_begin_curve, if another curve crosses it next to the candidate. */
+static bool gb_begin_crossing_curve(gb_answers *all, const gb_found_1 *found, const gb_real *q)
+{
+    return gb_begin_curve_within(all, found, q, GB_CURVE_AT_CROSSING);
 }

@@ -59,13 +59,23 @@ static bool gb_keep_moving(gb_answers *all, const gb_found_1 *found, const gb_re
     return moving.free != 0;
 }
 
-/* Whether a curve goes through a solution of a nearby mechanism, or through the end of the steps from one. Such a curve is followed. Where the ideal mechanism
- * is next to two self-motions, solutions elsewhere on it may exist although this one is regular. */
-static bool gb_is_curve(gb_answers *all, const gb_found_1 *found, const gb_real *q, const gb_fit *fit, bool is_weak)
+/* Stores a solution of a nearby mechanism for continuation if a curve goes through it. If the solution is regular, there may be others on the curve only next to
+ * a crossing. The equations then change, along the curve, by less than the square root of the candidate's residual. */
+static bool gb_begin_curve_through(gb_answers *all, const gb_found_1 *found, const gb_real *q, gb_real regularity, gb_real missed)
 {
-    const bool is_valley = gb_is_between(fit->relative, GB_ACCEPTANCE_ROUNDING, GB_STRATA_NEAR);
-    const bool is_singular = is_valley || (fit->accepted && is_weak);
-    return is_singular && gb_begin_curve(all, found, q);
+    if (regularity <= GB_PIVOTS_REGULAR) {
+        return gb_begin_curve(all, found, q);
+    }
+    return regularity <= gb_square_root(missed) && gb_begin_crossing_curve(all, found, q);
+}
+
+/* Whether a curve goes through a solution of a nearby mechanism, or through the end of the steps from one. Such a curve is followed. */
+static bool gb_is_curve(gb_answers *all, const gb_found_1 *found, const gb_end *end, gb_real regularity, gb_real missed)
+{
+    if (gb_is_between(end->fit.relative, GB_ACCEPTANCE_ROUNDING, GB_STRATA_NEAR)) {
+        return gb_begin_curve(all, found, end->q);
+    }
+    return end->fit.accepted && gb_begin_curve_through(all, found, end->q, regularity, missed);
 }
 
 /* Keeps the end of the Newton steps from the candidate with this number. If the equations are ill-conditioned, searches for a second solution. */
@@ -83,9 +93,7 @@ GB_LINKAGE void gb_arrive(gb_answers *all, size_t number, const gb_found_1 *foun
     if (gb_keep_moving(all, found, approach->end, &approach->fit, regularity)) {
         return;
     }
-    if (regularity <= gb_square_root(approach->missed)) {
-        gb_begin_curve(all, found, approach->end);
-    }
+    gb_begin_curve_through(all, found, approach->end, regularity, approach->missed);
     gb_keep(all, found, approach->end, &approach->fit);
     gb_twin(all, found, approach->end, &triangle, approach->missed);
 }
@@ -106,9 +114,10 @@ static void gb_start_beyond(gb_answers *all, const gb_found_1 *found, const gb_r
 
 /* Searches for curves next to the end of the steps from a candidate, and next to the candidate if that is far away. Returns whether the steps ended on a
  * curve. */
-static bool gb_leads_to_curve(gb_answers *all, const gb_found_1 *found, const gb_real *q, bool is_beside, const gb_end *end, bool is_weak)
+static bool gb_leads_to_curve(gb_answers *all, const gb_found_1 *found, const gb_real *q, gb_real missed, const gb_end *end, gb_real regularity)
 {
-    if (is_beside && gb_is_curve(all, found, end->q, &end->fit, is_weak) && end->fit.relative >= GB_ACCEPTANCE_ROUNDING) {
+    const bool is_beside = gb_is_between(missed, GB_ACCEPTANCE_ROUNDING, GB_NEARBY_ROBOTS_OFF);
+    if (is_beside && gb_is_curve(all, found, end, regularity, missed) && end->fit.relative >= GB_ACCEPTANCE_ROUNDING) {
         return true;
     }
     if (gb_farthest(all->problem.mechanism, q, end->q) > GB_MERGING_BLUR) {
@@ -147,7 +156,7 @@ GB_LINKAGE void gb_refine(gb_answers *all, size_t number, const gb_found_1 *foun
             return;
         }
     }
-    if (is_nearby && gb_leads_to_curve(all, found, q, is_beside, &end, regularity <= gb_square_root(missed))) {
+    if (is_nearby && gb_leads_to_curve(all, found, q, missed, &end, regularity)) {
         gb_miss(all, end.q, &end.fit);
         return;
     }
