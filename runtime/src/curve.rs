@@ -1,6 +1,7 @@
 //! Continuation along curves on which the equations of a nearby mechanism hold almost. Where the formulas have a self-motion, the mechanism itself may have
 //! isolated solutions anywhere on the remaining curve. Newton steps find none of them, because the equations change little along the curve. A walk holds one
-//! joint after the other while the remaining ones minimise the residual. At each solution the residual changes its sign.
+//! joint after the other while the remaining ones minimise the residual. At each solution the residual changes its sign. Where the ideal mechanism has two
+//! self-motions through one configuration, two curves cross: from one of them the other is found, too.
 //!
 //! Same as `six_axes/curve.rs`, for any number of joints and equations. (E. L. Allgower and K. Georg, Numerical Continuation Methods, 1990, chapter 3.)
 
@@ -16,6 +17,10 @@ use crate::tolerances::{ACCEPTANCE, PIVOTS, SELF_MOTIONS};
 const PACES: usize = 400;
 /// Iterations of false position between two steps.
 const NARROWED: usize = 24;
+/// Where the least pivot of the joints that follow has a minimum below this, another curve may cross.
+const CROSSING: f64 = 5e-2;
+/// Maximal least pivot of the joints that follow at a regular solution next to a crossing.
+const AT_CROSSING: f64 = 2e-2;
 /// Maximal number of parabolas that search for the least residual on a curve.
 const PARABOLAS: usize = 12;
 /// Where the residual at a parabola's vertex is more than this share of the one before, the curve may have no zero.
@@ -47,10 +52,20 @@ impl<M: Mechanism> Answers<'_, M> {
     /// Stores a candidate next to which there is a curve, for [`Answers::walk_curves`] after all candidates. Returns whether there is one.
     #[cold]
     pub fn begin_curve(&mut self, found: &Found, q: &Joints<M>) -> bool {
+        self.begin_curve_within(found, q, 1.0)
+    }
+
+    /// Same as [`Answers::begin_curve`], if another curve crosses it next to the candidate.
+    pub fn begin_crossing_curve(&mut self, found: &Found, q: &Joints<M>) -> bool {
+        self.begin_curve_within(found, q, AT_CROSSING)
+    }
+
+    /// Same as [`Answers::begin_curve`], if the least pivot of the joints that follow is at most `pivot` there.
+    fn begin_curve_within(&mut self, found: &Found, q: &Joints<M>, pivot: f64) -> bool {
         let _phase = Phase::Curve.begin();
         // Numbers that follow from no joint belong to one candidate, so they cannot be stored.
         let place = if self.problem.facts().has_extras { None } else { self.problem.start(q, found.free) };
-        let Some((start, held)) = place else { return false };
+        let Some((start, held)) = place.filter(|(start, _)| start.pivot <= pivot) else { return false };
         let free = if is_in(found.free, held) { found.free } else { 0 };
         if self.starts.as_ref().is_some_and(Starts::is_full) {
             self.walk_curves();
@@ -64,10 +79,8 @@ impl<M: Mechanism> Answers<'_, M> {
     pub fn walk_curves(&mut self) {
         let _phase = Phase::Curve.begin();
         let Some(mut starts) = self.starts.take() else { return };
-        for index in 0..starts.count {
-            if let Some((found, q)) = starts.list[index].take() {
-                self.walk_curve(&found, q, &mut starts);
-            }
+        while let Some((found, q)) = starts.take() {
+            self.walk_curve(&found, q, &mut starts);
         }
     }
 
@@ -86,13 +99,16 @@ impl<M: Mechanism> Answers<'_, M> {
         }
         if let [Some(before), Some(behind)] = &sides {
             self.dip(&walk.found, [before, &walk.home, behind]);
+            self.branch(&walk.found, [before, &walk.home, behind], starts);
         }
+        // A place without neighbours shows no self-motion.
+        let is_curve = sides.iter().any(Option::is_some);
         for side in sides.into_iter().flatten() {
             if self.leads_home(&mut walk, side, starts) {
                 break;
             }
         }
-        if walk.most <= WHOLE {
+        if is_curve && walk.most <= WHOLE {
             self.keep_whole_curve(found, held, walk.best.q);
         }
     }
@@ -111,9 +127,13 @@ impl<M: Mechanism> Answers<'_, M> {
                 self.change(&walk.found, &at, &walk.home);
                 return true;
             }
-            let Some((next, length)) = self.problem.pace(&before, &at, last, &mut pace) else { return false };
+            let Some((next, length)) = self.problem.pace(&before, &at, last, &mut pace) else {
+                self.branch(&walk.found, [&before, &at, &before], starts);
+                return false;
+            };
             self.change(&walk.found, &at, &next);
             self.dip(&walk.found, [&before, &at, &next]);
+            self.branch(&walk.found, [&before, &at, &next], starts);
             // Consecutive places with residuals within rounding are one solution, or several close together.
             if (at.most <= SELF_MOTIONS.member) != (next.most <= SELF_MOTIONS.member) {
                 self.keep_on_curve(
@@ -124,6 +144,16 @@ impl<M: Mechanism> Answers<'_, M> {
             (before, at, last) = (at, next, length);
         }
         false
+    }
+
+    /// Adds starts on a curve that crosses another one next to the second of three places.
+    fn branch(&mut self, found: &Found, [before, at, next]: [&Place<M>; 3], starts: &mut Starts<M>) {
+        let is_least = at.pivot < CROSSING && at.pivot <= before.pivot && at.pivot <= next.pivot;
+        if is_least && starts.is_new_crossing(&self.problem.facts(), &at.q) {
+            for place in self.problem.aside(before, at).into_iter().flatten() {
+                starts.insert(*found, place.q);
+            }
+        }
     }
 
     /// Keeps the solution between two places where the residual changes its sign, by false position (the Illinois rule: M. Dowell and P. Jarratt, BIT 11 (1971)

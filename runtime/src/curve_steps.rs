@@ -1,9 +1,10 @@
 //! Steps along a curve on which the equations of a nearby mechanism hold almost: [`Place`] and the next one. See [`crate::curve`].
 
-use crate::joints::{beyond, differences, stepped};
+use crate::joints::{beyond, differences, shifted, stepped};
 use crate::mechanism::{Equations, Joints, Mechanism};
 use crate::problem::Problem;
 use crate::starts::product;
+use crate::storage::Array;
 use crate::tolerances::{ACCEPTANCE, PIVOTS, SELF_MOTIONS, STRATA};
 
 /// Maximal number of least-squares steps that correct a place onto the curve.
@@ -14,6 +15,10 @@ const BOUND: f64 = 0.5;
 pub(crate) const PACE: [f64; 3] = [1.5e-3, 2.5e-2, 0.1];
 /// The end of a step must be no farther from the extrapolated line than this share of the step's length. Otherwise it may be on another curve.
 const STRAIGHT: f64 = 0.5;
+/// Distances from a crossing at which the other curve is searched for (rad, or relative to the length scale).
+const ASIDE: [f64; 3] = [0.1, 0.2, 0.4];
+/// A place on the other curve is at most this factor times the distance from the crossing.
+const ASTRAY: f64 = 3.0;
 /// The least squared cosine between the residual vectors at two consecutive places.
 const ALIGNED: f64 = 0.5;
 /// The largest ratio of the squared residuals at two consecutive places.
@@ -28,11 +33,13 @@ pub(crate) struct Place<M: Mechanism> {
     pub miss: Equations<M>,
     /// The largest of them.
     pub most: f64,
+    /// The least pivot of the joints that follow the one that is held, relative to the largest. It is small where another curve crosses.
+    pub pivot: f64,
 }
 
 impl<M: Mechanism> Clone for Place<M> {
     fn clone(&self) -> Self {
-        Place { q: self.q.clone(), miss: self.miss.clone(), most: self.most }
+        Place { q: self.q.clone(), miss: self.miss.clone(), ..*self }
     }
 }
 
@@ -77,7 +84,8 @@ impl<M: Mechanism> Problem<'_, M> {
                 return None;
             }
             let (derivatives, mut miss) = self.shared(&q);
-            let step = self.triangle_of(&derivatives, &miss, 0.0, 1 << held).substituted()?;
+            let triangle = self.triangle_of(&derivatives, &miss, 0.0, 1 << held);
+            let step = triangle.substituted()?;
             let longest = self.facts().longest(step.as_ref());
             if longest > BOUND {
                 return None;
@@ -89,7 +97,8 @@ impl<M: Mechanism> Problem<'_, M> {
                     *value = slopes.fold(*value, |rest, (slope, delta)| rest - slope * delta);
                 }
                 let most = miss.as_ref().iter().fold(0.0, |most, value| f64::max(most, value.abs()));
-                return (most <= STRATA.near).then_some(Place { q, miss, most });
+                let pivot = triangle.regularity();
+                return (most <= STRATA.near).then_some(Place { q, miss, most, pivot });
             }
         }
         None
@@ -120,6 +129,24 @@ impl<M: Mechanism> Problem<'_, M> {
             *pace *= 0.5;
         }
         None
+    }
+
+    /// Places on either side of `at` on a curve that crosses the one from `before` there. It leads in the direction in which the equations change least while
+    /// the joint that is held on the first curve does not move.
+    pub fn aside(&mut self, before: &Place<M>, at: &Place<M>) -> [Option<Place<M>>; 2] {
+        let facts = self.facts();
+        let held = farthest(differences::<M>(&facts, &at.q, &before.q).as_ref());
+        let triangle = self.shares(&at.q, 0.0, 1 << held);
+        let Some((direction, _)) = self.stillest(triangle) else { return [None, None] };
+        let joint = farthest(direction.as_ref());
+        [-1.0, 1.0].map(|sign| {
+            ASIDE.iter().find_map(|distance| {
+                let step: Joints<M> = Array::by(self.joints(), |i| sign * distance * direction.as_ref()[i]);
+                let place = self.settled(shifted::<M>(&facts, &at.q, &step), joint)?;
+                let is_near = facts.farthest(place.q.as_ref(), at.q.as_ref()) <= ASTRAY * distance;
+                (is_near && place.pivot > at.pivot).then_some(place)
+            })
+        })
     }
 
     /// The minimum of a parabola through the residuals of three places, projected on a direction; the middle place has the least residual. Also returns the

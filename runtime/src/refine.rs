@@ -43,7 +43,7 @@ impl<M: Mechanism> Answers<'_, M> {
         if triangle.is_some() && self.keep_moving(found, &end, regularity) {
             return;
         }
-        if is_nearby && self.leads_to_curve(found, (&q, is_beside), &end, regularity) {
+        if is_nearby && self.leads_to_curve(found, (&q, missed), &end, regularity) {
             return self.miss(end);
         }
         if (ACCEPTANCE.rounding..=STRATA.near).contains(&miss) {
@@ -66,14 +66,9 @@ impl<M: Mechanism> Answers<'_, M> {
 
     /// Searches for curves next to the end of the steps from a candidate, and next to the candidate if that is far away. Returns whether the steps ended on a
     /// curve.
-    fn leads_to_curve(
-        &mut self,
-        found: &Found,
-        (q, is_beside): (&Joints<M>, bool),
-        end: &End<M>,
-        regularity: f64,
-    ) -> bool {
-        if is_beside && self.is_curve(found, end, regularity) && end.1.relative >= ACCEPTANCE.rounding {
+    fn leads_to_curve(&mut self, found: &Found, (q, missed): (&Joints<M>, f64), end: &End<M>, regularity: f64) -> bool {
+        let is_beside = (ACCEPTANCE.rounding..=NEARBY_ROBOTS.off).contains(&missed);
+        if is_beside && self.is_curve(found, end, regularity, missed) && end.1.relative >= ACCEPTANCE.rounding {
             return true;
         }
         if self.problem.facts().farthest(q.as_ref(), end.0.as_ref()) > MERGING.blur {
@@ -94,12 +89,10 @@ impl<M: Mechanism> Answers<'_, M> {
         }
         let triangle = self.problem.triangle(&end, 0.0, 0);
         let regularity = triangle.regularity();
-        if regularity <= PIVOTS.regular {
-            if self.keep_moving(found, &(end.clone(), fit), regularity) {
-                return;
-            }
-            self.begin_curve(found, &end);
+        if self.keep_moving(found, &(end.clone(), fit), regularity) {
+            return;
         }
+        self.begin_curve_through(found, &end, regularity, missed);
         self.keep(found, (end.clone(), fit));
         self.twin(found, &end, triangle, missed);
     }
@@ -116,10 +109,20 @@ impl<M: Mechanism> Answers<'_, M> {
     }
 
     /// Whether a curve goes through a solution of a nearby mechanism, or through the end of the steps from one. Such a curve is followed.
-    fn is_curve(&mut self, found: &Found, (q, fit): &End<M>, regularity: f64) -> bool {
-        let is_singular =
-            (ACCEPTANCE.rounding..=STRATA.near).contains(&fit.relative) || fit.accepted && regularity <= PIVOTS.regular;
-        is_singular && self.begin_curve(found, q)
+    fn is_curve(&mut self, found: &Found, (q, fit): &End<M>, regularity: f64, missed: f64) -> bool {
+        if (ACCEPTANCE.rounding..=STRATA.near).contains(&fit.relative) {
+            return self.begin_curve(found, q);
+        }
+        fit.accepted && self.begin_curve_through(found, q, regularity, missed)
+    }
+
+    /// Stores a solution of a nearby mechanism for continuation if a curve goes through it. If the solution is regular, there may be others on the curve only next
+    /// to a crossing. The equations then change, along the curve, by less than the square root of the candidate's residual.
+    fn begin_curve_through(&mut self, found: &Found, q: &Joints<M>, regularity: f64, missed: f64) -> bool {
+        if regularity <= PIVOTS.regular {
+            return self.begin_curve(found, q);
+        }
+        regularity <= Arithmetic::sqrt(missed) && self.begin_crossing_curve(found, q)
     }
 
     /// Searches for a second solution next to one whose candidate was a double root. Their distance is about the square root of the candidate's residual. The

@@ -1,20 +1,27 @@
 //! Start points of continuation along curves: [`Starts`].
 
+use crate::curve_steps::PACE;
 use crate::joints::{beyond, differences};
 use crate::mechanism::{Facts, Found, Joints, Mechanism};
 use crate::tolerances::MERGING;
 
 /// Maximal number of stored starts.
 const ROOM: usize = 32;
+/// Maximal number of crossings at which other curves are searched for.
+const CROSSINGS: usize = 16;
+/// Crossings that are nearer to each other are one: the places next to it on both curves are half a step away.
+const ONE_CROSSING: f64 = 2.0 * PACE[2];
 
 /// Starts of walks: the candidates, and joint values on the curves next to them.
 pub(crate) struct Starts<M: Mechanism> {
     pub list: [Option<(Found, Joints<M>)>; ROOM],
     pub count: usize,
+    /// Crossings of curves that have been searched for other curves.
+    crossings: [Option<Joints<M>>; CROSSINGS],
 }
 
 impl<M: Mechanism> Starts<M> {
-    pub const NONE: Self = Starts { list: [const { None }; ROOM], count: 0 };
+    pub const NONE: Self = Starts { list: [const { None }; ROOM], count: 0, crossings: [const { None }; CROSSINGS] };
 
     pub fn is_full(&self) -> bool {
         self.count == ROOM
@@ -24,6 +31,30 @@ impl<M: Mechanism> Starts<M> {
     pub fn add(&mut self, found: Found, q: Joints<M>) {
         self.list[self.count] = Some((found, q));
         self.count += 1;
+    }
+
+    /// Removes the first start that is left.
+    pub fn take(&mut self) -> Option<(Found, Joints<M>)> {
+        self.list[..self.count].iter_mut().find_map(Option::take)
+    }
+
+    /// Adds a start in the place of one that has been removed, or after the last one.
+    pub fn insert(&mut self, found: Found, q: Joints<M>) {
+        let place = self.list.iter().position(Option::is_none);
+        if let Some(place) = place {
+            self.list[place] = Some((found, q));
+            self.count = self.count.max(place + 1);
+        }
+    }
+
+    /// Stores a crossing of curves. Returns whether it is new and there is room.
+    pub fn is_new_crossing(&mut self, facts: &Facts<'_>, q: &Joints<M>) -> bool {
+        let is_near = |other: &Joints<M>| facts.farthest(other.as_ref(), q.as_ref()) <= ONE_CROSSING;
+        if self.crossings.iter().flatten().any(is_near) {
+            return false;
+        }
+        let free = self.crossings.iter_mut().find(|crossing| crossing.is_none());
+        free.map(|crossing| *crossing = Some(q.clone())).is_some()
     }
 
     /// Removes the starts that a step passes.

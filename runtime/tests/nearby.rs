@@ -22,6 +22,22 @@ const NEAR: [f64; 6] = [
     0.24387500039140875,
 ];
 
+/// Joint values on a self-motion of the ideal robot that crosses another one, or is next to it: the wrist is straight, and its centre is next to the first axis or
+/// the arm is stretched. The formulas propose only solutions on the other self-motion, or on a part of this one.
+#[rustfmt::skip]
+const ON_CROSSING_CURVES: [[f64; 6]; 10] = [
+    [-1.3843641378845428, 2.991625004565745, 1.7503237644185843, -2.567449247065704, 6.989998854252685e-5, 1.0741787865181829],
+    [-0.6074042854841988, 2.05709967989098, 1.331898071862586, -2.293971853249113, -0.001, -0.52898211272709],
+    [0.23910386161455754, 1.090784550366556, 2.2225636683011967, 0.9982505670510582, -0.0001, -1.2209948340360395],
+    [2.018371758190008, 2.0529212041449316, 1.3002679361380416, -0.5846587320395784, 1e-5, -1.924084563695328],
+    [2.6655160214541516, 1.0276906947654867, 2.5489046940135456, 2.123494452757475, 1e-7, 2.4555112153986913],
+    [2.125394636738805, 2.633859349938602, 1.75033512090301, -2.243981494993195, -0.0, 1.552045297762592],
+    [-1.0471975511965976, 2.0943951023931953, 1.0471975511965976, -1.0471975511965976, 0.0, 2.6179938779914944],
+    [-2.0943951023931953, 1.0471975511965976, 2.0943951023931953, -2.6179938779914944, 0.0, 2.0943951023931953],
+    [-1.2217304763960306, 0.3490658503988659, 1.9198621771937625, -0.3490658503988659, 0.0, 0.6981317007977318],
+    [-2.705260340591211, 0.2617993877991494, 1.9198621771937625, -0.08726646259971647, 0.0, 2.792526803190927],
+];
+
 /// Random joint values, of which the fifth is within `beside` of zero.
 fn poses(beside: f64) -> Vec<[f64; 12]> {
     let mut random = crate::random();
@@ -89,4 +105,22 @@ fn no_solution_is_lost() {
         }
     }
     assert!(Solver.facts().nearby.is_some());
+}
+
+/// All solutions are found where the curves that remain of two self-motions cross.
+#[test]
+fn no_solution_on_a_crossing_curve_is_lost() {
+    let distance = |a: &[f64; 6], b: &[f64; 6]| {
+        a.iter().zip(b).map(|(a, b)| (a - b).sin().abs().max(1.0 - (a - b).cos())).fold(0.0, f64::max)
+    };
+    for q in ON_CROSSING_CURVES {
+        let target = Solver.forward(&q).unwrap();
+        let mut out = [EMPTY; CAPACITY];
+        let count = Solver.solve(&target, &mut out).unwrap();
+        let found = &out[..count];
+        assert!(found.iter().any(|a| distance(&a.q, &q) < 1e-5), "{q:?}");
+        assert!(found.iter().all(|a| a.free == 0 && Solver.residual(&target, &a.q) < 1e-12), "{q:?}");
+        let mut pairs = (0..count).flat_map(|i| found[..i].iter().map(move |b| (&found[i], b)));
+        assert!(pairs.all(|(a, b)| distance(&a.q, &b.q) > 1e-4), "{q:?}");
+    }
 }

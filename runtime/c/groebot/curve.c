@@ -2,11 +2,14 @@
  *
  * Where the formulas have a self-motion, the mechanism itself may have isolated solutions anywhere on the remaining curve. Newton steps find none of them,
  * because the equations change little along the curve. A walk holds one joint after the other while the remaining ones minimise the residual. At each
- * solution the residual changes its sign. (E. L. Allgower and K. Georg, Numerical Continuation Methods, 1990, chapter 3.) */
+ * solution the residual changes its sign. Where the ideal mechanism has two self-motions through one configuration, two curves cross: from one of them the
+ * other is found, too. (E. L. Allgower and K. Georg, Numerical Continuation Methods, 1990, chapter 3.) */
 
 /* The constants are those of curve.rs, where they are documented. */
 #define GB_CURVE_PACES 400
 #define GB_CURVE_NARROWED 24
+#define GB_CURVE_CROSSING R(5e-2)
+#define GB_CURVE_AT_CROSSING R(2e-2)
 #define GB_CURVE_PARABOLAS 12
 #define GB_CURVE_FALLEN R(0.5)
 #define GB_CURVE_STALLS 2
@@ -123,6 +126,52 @@ static void gb_keep_whole_curve(gb_answers *all, const gb_found_1 *found, size_t
     gb_keep(all, &moving, end.q, &end.fit);
 }
 
+/* Adds a start in the place of one that has been removed, or after the last one. */
+static void gb_insert_start(const gb_mechanism *m, gb_starts *starts, const gb_found_1 *found, const gb_real *q)
+{
+    size_t place = 0;
+    while (place < starts->count && starts->is_open[place]) {
+        place++;
+    }
+    if (place < GB_STARTS) {
+        starts->count += place == starts->count;
+        starts->found[place] = *found;
+        starts->is_open[place] = true;
+        gb_copy(starts->q[place], q, m->joints);
+    }
+}
+
+/* Stores a crossing of curves. Returns whether it is new and there is room. */
+static bool gb_is_new_crossing(const gb_mechanism *m, gb_starts *starts, const gb_real *q)
+{
+    for (size_t k = 0; k < starts->crossings_count; k++) {
+        if (gb_farthest(m, starts->crossings[k], q) <= R(2.0) * gb_curve_pace[2]) {
+            return false;
+        }
+    }
+    if (starts->crossings_count == GB_CROSSINGS) {
+        return false;
+    }
+    gb_copy(starts->crossings[starts->crossings_count++], q, m->joints);
+    return true;
+}
+
+/* Adds starts on a curve that crosses another one next to the second of three places. */
+static void gb_branch_off(gb_answers *all, gb_starts *starts, const gb_found_1 *found, const gb_spot *before, const gb_spot *at, const gb_spot *next)
+{
+    const gb_problem *problem = &all->problem;
+    const bool is_least = at->pivot < GB_CURVE_CROSSING && at->pivot <= before->pivot && at->pivot <= next->pivot;
+    gb_real direction[GB_MAX_JOINTS];
+    gb_spot place;
+    if (is_least && gb_is_new_crossing(problem->mechanism, starts, at->q) && gb_find_crossing(problem, before, at, direction)) {
+        for (int side = 0; side < 2; side++) {
+            if (gb_find_aside(problem, at, direction, side == 0 ? R(-1.0) : R(1.0), &place)) {
+                gb_insert_start(problem->mechanism, starts, found, place.q);
+            }
+        }
+    }
+}
+
 /* Whether joint values are next to a step of a walk. */
 static bool gb_is_passed(const gb_mechanism *m, const gb_real *q, const gb_real *from, const gb_real *to)
 {
@@ -161,10 +210,12 @@ static bool gb_leads_home(gb_answers *all, gb_starts *starts, gb_curve *curve, c
             return true;
         }
         if (!gb_pace(&all->problem, &before, &at, &last, &pace, &next)) {
+            gb_branch_off(all, starts, &curve->found, &before, &at, &before);
             return false;
         }
         gb_keep_change(all, &curve->found, &at, &next);
         gb_keep_dip(all, &curve->found, &before, &at, &next);
+        gb_branch_off(all, starts, &curve->found, &before, &at, &next);
         /* Consecutive places with residuals within rounding are one solution, or several close together. */
         if ((at.most <= GB_SELF_MOTIONS_MEMBER) != (next.most <= GB_SELF_MOTIONS_MEMBER)) {
             gb_keep_on_curve(all, &curve->found, at.most <= GB_SELF_MOTIONS_MEMBER ? at.q : next.q);
@@ -201,13 +252,25 @@ static void gb_walk_curve(gb_answers *all, gb_starts *starts, const gb_found_1 *
     }
     if (is_there[0] && is_there[1]) {
         gb_keep_dip(all, &curve.found, &sides[0], &curve.home, &sides[1]);
+        gb_branch_off(all, starts, &curve.found, &sides[0], &curve.home, &sides[1]);
     }
     if (!(is_there[0] && gb_leads_home(all, starts, &curve, &sides[0])) && is_there[1]) {
         gb_leads_home(all, starts, &curve, &sides[1]);
     }
-    if (curve.most <= GB_CURVE_WHOLE) {
+    /* A place without neighbours shows no self-motion. */
+    if ((is_there[0] || is_there[1]) && curve.most <= GB_CURVE_WHOLE) {
         gb_keep_whole_curve(all, found, held, curve.best.q);
     }
+}
+
+/* The first start that is left, or the number of starts. */
+static size_t gb_next_start(const gb_starts *starts)
+{
+    size_t place = 0;
+    while (place < starts->count && !starts->is_open[place]) {
+        place++;
+    }
+    return place;
 }
 
 /* Follows the curves next to the stored candidates, and keeps the solutions on them. */
@@ -215,22 +278,25 @@ GB_LINKAGE void gb_walk_curves(gb_answers *all)
 {
     gb_starts starts = all->starts;
     all->starts.count = 0;
-    for (size_t k = 0; k < starts.count; k++) {
-        if (starts.is_open[k]) {
-            starts.is_open[k] = false;
-            gb_walk_curve(all, &starts, &starts.found[k], starts.q[k]);
-        }
+    starts.crossings_count = 0;
+    for (size_t k = gb_next_start(&starts); k < starts.count; k = gb_next_start(&starts)) {
+        const gb_found_1 found = starts.found[k];
+        gb_real q[GB_MAX_JOINTS];
+        gb_copy(q, starts.q[k], all->problem.mechanism->joints);
+        starts.is_open[k] = false;
+        gb_walk_curve(all, &starts, &found, q);
     }
 }
 
-/* Stores a candidate next to which there is a curve, to follow it after all candidates. Returns whether there is one. */
-static bool gb_begin_curve(gb_answers *all, const gb_found_1 *found, const gb_real *q)
+/* Stores a candidate next to which there is a curve, to follow it after all candidates, if the least pivot of the joints that follow is at most `pivot` there.
+ * Returns whether there is one. */
+static bool gb_begin_curve_within(gb_answers *all, const gb_found_1 *found, const gb_real *q, gb_real pivot)
 {
     const gb_mechanism *m = all->problem.mechanism;
     gb_spot start;
     size_t held;
     /* Numbers that follow from no joint belong to one candidate, so they cannot be stored. */
-    if (m->has_extras || !gb_start_on_curve(&all->problem, q, found->free, &start, &held)) {
+    if (m->has_extras || !gb_start_on_curve(&all->problem, q, found->free, &start, &held) || !(start.pivot <= pivot)) {
         return false;
     }
     if (all->starts.count == GB_STARTS) {
@@ -242,4 +308,16 @@ static bool gb_begin_curve(gb_answers *all, const gb_found_1 *found, const gb_re
     all->starts.is_open[k] = true;
     gb_copy(all->starts.q[k], start.q, m->joints);
     return true;
+}
+
+/* Stores a candidate next to which there is a curve, to follow it after all candidates. Returns whether there is one. */
+static bool gb_begin_curve(gb_answers *all, const gb_found_1 *found, const gb_real *q)
+{
+    return gb_begin_curve_within(all, found, q, R(1.0));
+}
+
+/* Same as gb_begin_curve, if another curve crosses it next to the candidate. */
+static bool gb_begin_crossing_curve(gb_answers *all, const gb_found_1 *found, const gb_real *q)
+{
+    return gb_begin_curve_within(all, found, q, GB_CURVE_AT_CROSSING);
 }

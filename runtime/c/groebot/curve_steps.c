@@ -9,12 +9,18 @@
 #define GB_CURVE_WHOLE (R(10.0) * GB_ACCEPTANCE_RESIDUAL)
 /* The shortest, the first and the longest step along a curve. */
 static const gb_real gb_curve_pace[] = {R(1.5e-3), R(2.5e-2), R(0.1)};
+/* Distances from a crossing at which the other curve is searched for. */
+#define GB_CURVE_ASIDES 3
+static const gb_real gb_curve_aside[GB_CURVE_ASIDES] = {R(0.1), R(0.2), R(0.4)};
+#define GB_CURVE_ASTRAY R(3.0)
 
-/* A place on a curve: joints, the relative residuals there, and the largest of them. */
+/* A place on a curve: joints, the relative residuals there, the largest of them, and the least pivot of the joints that follow the one that is held, relative
+ * to the largest. It is small where another curve crosses. */
 typedef struct {
     gb_real q[GB_MAX_JOINTS];
     gb_real miss[GB_MAX_EQUATIONS];
     gb_real most;
+    gb_real pivot;
 } gb_spot;
 
 /* The index of the entry with the greatest magnitude, the first of equals. */
@@ -83,6 +89,7 @@ static bool gb_settle_on_curve(const gb_problem *problem, size_t held, gb_spot *
         gb_stepped(m, spot->q, step, spot->q);
         if (longest <= GB_SELF_MOTIONS_CURVE) {
             spot->most = R(0.0);
+            spot->pivot = gb_regularity_in(&triangle);
             for (size_t i = 0; i < m->equations; i++) {
                 for (size_t k = 0; k < m->joints; k++) {
                     spot->miss[i] = spot->miss[i] - rows[i * m->joints + k] * step[k];
@@ -148,6 +155,36 @@ static bool gb_pace(const gb_problem *problem, const gb_spot *before, const gb_s
         }
     }
     return false;
+}
+
+/* The place on one side of `at` on a curve that crosses the one from another place there, in a direction of the other curve. */
+static bool gb_find_aside(const gb_problem *problem, const gb_spot *at, const gb_real *direction, gb_real sign, gb_spot *place)
+{
+    const gb_mechanism *m = problem->mechanism;
+    const size_t joint = gb_greatest(direction, m->joints);
+    for (int i = 0; i < GB_CURVE_ASIDES; i++) {
+        gb_shifted(m, at->q, direction, sign * gb_curve_aside[i], place->q);
+        if (gb_settle_on_curve(problem, joint, place) && gb_farthest(m, place->q, at->q) <= GB_CURVE_ASTRAY * gb_curve_aside[i]
+            && place->pivot > at->pivot) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The direction of a curve that crosses the one from `before` to `at` there: in it the equations change least while the joint that is held on the first curve
+ * does not move. */
+static bool gb_find_crossing(const gb_problem *problem, const gb_spot *before, const gb_spot *at, gb_real *direction)
+{
+    const gb_mechanism *m = problem->mechanism;
+    const size_t held = gb_farthest_joint(m, at->q, before->q);
+    gb_real rows[GB_MAX_EQUATIONS * GB_MAX_JOINTS], miss[GB_MAX_EQUATIONS], share;
+    gb_triangle triangle;
+    gb_share(problem, at->q, rows, miss);
+    gb_clear_triangle(m, &triangle);
+    gb_copy(gb_column(&triangle, m->joints), miss, m->equations);
+    gb_fill_triangle(problem, rows, R(0.0), (uint32_t)1 << held, &triangle);
+    return gb_stillest(problem, &triangle, direction, &share);
 }
 
 /* The minimum of a parabola through the residuals of three places, projected on a direction; the middle place has the least residual. Also returns the side

@@ -59,12 +59,23 @@ static bool gb_keep_moving(gb_answers *all, const gb_found_1 *found, const gb_re
     return moving.free != 0;
 }
 
-/* Whether a curve goes through a solution of a nearby mechanism, or through the end of the steps from one. Such a curve is followed. */
-static bool gb_is_curve(gb_answers *all, const gb_found_1 *found, const gb_real *q, const gb_fit *fit, gb_real regularity)
+/* Stores a solution of a nearby mechanism for continuation if a curve goes through it. If the solution is regular, there may be others on the curve only next to
+ * a crossing. The equations then change, along the curve, by less than the square root of the candidate's residual. */
+static bool gb_begin_curve_through(gb_answers *all, const gb_found_1 *found, const gb_real *q, gb_real regularity, gb_real missed)
 {
-    const bool is_valley = gb_is_between(fit->relative, GB_ACCEPTANCE_ROUNDING, GB_STRATA_NEAR);
-    const bool is_singular = is_valley || (fit->accepted && regularity <= GB_PIVOTS_REGULAR);
-    return is_singular && gb_begin_curve(all, found, q);
+    if (regularity <= GB_PIVOTS_REGULAR) {
+        return gb_begin_curve(all, found, q);
+    }
+    return regularity <= gb_square_root(missed) && gb_begin_crossing_curve(all, found, q);
+}
+
+/* Whether a curve goes through a solution of a nearby mechanism, or through the end of the steps from one. Such a curve is followed. */
+static bool gb_is_curve(gb_answers *all, const gb_found_1 *found, const gb_end *end, gb_real regularity, gb_real missed)
+{
+    if (gb_is_between(end->fit.relative, GB_ACCEPTANCE_ROUNDING, GB_STRATA_NEAR)) {
+        return gb_begin_curve(all, found, end->q);
+    }
+    return end->fit.accepted && gb_begin_curve_through(all, found, end->q, regularity, missed);
 }
 
 /* Keeps the end of the Newton steps from the candidate with this number. If the equations are ill-conditioned, searches for a second solution. */
@@ -79,12 +90,10 @@ GB_LINKAGE void gb_arrive(gb_answers *all, size_t number, const gb_found_1 *foun
     }
     gb_make_triangle(&all->problem, approach->end, R(0.0), 0, &triangle);
     const gb_real regularity = gb_regularity_in(&triangle);
-    if (regularity <= GB_PIVOTS_REGULAR) {
-        if (gb_keep_moving(all, found, approach->end, &approach->fit, regularity)) {
-            return;
-        }
-        gb_begin_curve(all, found, approach->end);
+    if (gb_keep_moving(all, found, approach->end, &approach->fit, regularity)) {
+        return;
     }
+    gb_begin_curve_through(all, found, approach->end, regularity, approach->missed);
     gb_keep(all, found, approach->end, &approach->fit);
     gb_twin(all, found, approach->end, &triangle, approach->missed);
 }
@@ -105,9 +114,10 @@ static void gb_start_beyond(gb_answers *all, const gb_found_1 *found, const gb_r
 
 /* Searches for curves next to the end of the steps from a candidate, and next to the candidate if that is far away. Returns whether the steps ended on a
  * curve. */
-static bool gb_leads_to_curve(gb_answers *all, const gb_found_1 *found, const gb_real *q, bool is_beside, const gb_end *end, gb_real regularity)
+static bool gb_leads_to_curve(gb_answers *all, const gb_found_1 *found, const gb_real *q, gb_real missed, const gb_end *end, gb_real regularity)
 {
-    if (is_beside && gb_is_curve(all, found, end->q, &end->fit, regularity) && end->fit.relative >= GB_ACCEPTANCE_ROUNDING) {
+    const bool is_beside = gb_is_between(missed, GB_ACCEPTANCE_ROUNDING, GB_NEARBY_ROBOTS_OFF);
+    if (is_beside && gb_is_curve(all, found, end, regularity, missed) && end->fit.relative >= GB_ACCEPTANCE_ROUNDING) {
         return true;
     }
     if (gb_farthest(all->problem.mechanism, q, end->q) > GB_MERGING_BLUR) {
@@ -146,7 +156,7 @@ GB_LINKAGE void gb_refine(gb_answers *all, size_t number, const gb_found_1 *foun
             return;
         }
     }
-    if (is_nearby && gb_leads_to_curve(all, found, q, is_beside, &end, regularity)) {
+    if (is_nearby && gb_leads_to_curve(all, found, q, missed, &end, regularity)) {
         gb_miss(all, end.q, &end.fit);
         return;
     }

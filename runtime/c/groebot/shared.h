@@ -221,11 +221,15 @@ typedef struct {
 
 /* Starts of continuation along curves next to self-motions, up to a maximal number: how the candidates were found, and joints on the curves. */
 #define GB_STARTS 32
+#define GB_CROSSINGS 16
 typedef struct {
     gb_found_1 found[GB_STARTS];
     gb_real q[GB_STARTS][GB_MAX_JOINTS];
     bool is_open[GB_STARTS];
     size_t count;
+    /* Crossings of curves that have been searched for other curves, up to a maximal number. */
+    gb_real crossings[GB_CROSSINGS][GB_MAX_JOINTS];
+    size_t crossings_count;
 } gb_starts;
 
 /* The solutions found so far. */
