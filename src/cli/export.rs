@@ -200,7 +200,7 @@ impl Arguments {
             Some(motion) => {
                 moving::robot_of(motion, self.robot.as_deref(), options).map_err(|error| error.in_file(file))?
             }
-            None => moving::robot(file, options)?,
+            None => moving::described(file, options)?,
         };
         omissions.add(&robot);
         let scene = Scene::of_robot(&robot, self.meshes.then_some(&meshes), motion.as_ref());

@@ -123,6 +123,10 @@ fn options_that_multiply_work_are_bounded() {
         "<robot name='bare'><link name='a'/><link name='b'/><joint name='j' type='continuous'><parent link='a'/><child link='b'/></joint></robot>",
     );
     assert!(refused(&["dynamics", &bare, "--lang", "rust"]).contains("no link has a mass"));
+    let states = at("states.csv", "q0\n0.1\n");
+    for robot in [bare.as_str(), "franka_panda"] {
+        assert!(refused(&["dynamics", robot, "--states", &states]).contains("no link has a mass"));
+    }
 }
 
 #[test]

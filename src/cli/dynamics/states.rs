@@ -5,15 +5,15 @@ use std::path::Path;
 use nalgebra::{DMatrix, DVector, Vector3};
 use serde::Serialize;
 
-use super::Arguments;
 use super::reading::Reading;
+use super::{Arguments, massless};
 use crate::cli::json::FORMAT;
 use crate::cli::moving::described;
 use crate::cli::output::Kind;
 use crate::cli::{Outcome, console};
 use crate::{Error, Result};
 use groebot_robot::dynamics::{Base, Equations, State, Workspace};
-use groebot_robot::model::Robot;
+use groebot_robot::model::{Joint, Robot};
 use groebot_robot::motion::{StateRow, StateTable};
 
 /// The output for all states.
@@ -45,6 +45,9 @@ struct Answer {
 pub fn run(arguments: &Arguments, states: &Path) -> Outcome {
     let output = arguments.output(Some(states)).expects([arguments.out.as_ref()])?;
     let (robot, _) = described(&arguments.robot, &arguments.part.options())?;
+    if !has_dynamics(&robot) {
+        return Err(massless().in_file(&arguments.robot).into());
+    }
     let (robot, gravity) = arguments.part.of(&robot)?;
     let table = StateTable::read_csv(states)?;
     let report = report(&robot, gravity, arguments, (states, table))?;
@@ -56,6 +59,12 @@ pub fn run(arguments: &Arguments, states: &Path) -> Outcome {
         Some(file) => output.write(file, if arguments.json { Kind::Json } else { Kind::Plain }, text),
         None => console::print(&text),
     }
+}
+
+/// Whether a link has a mass, or a joint friction or a rotor.
+fn has_dynamics(robot: &Robot) -> bool {
+    let moves = |joint: &Joint| [joint.damping, joint.friction, joint.armature].iter().any(|number| *number != 0.0);
+    robot.links().iter().any(|link| link.mass.is_some()) || robot.joints().iter().any(moves)
 }
 
 fn report(

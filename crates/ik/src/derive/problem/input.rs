@@ -379,7 +379,10 @@ fn input_in(folder: &Path) -> Result<PathBuf> {
     match present.as_slice() {
         [file] => Ok(folder.join(file)),
         [] => {
-            let text = "this folder has no input; add a `0_chain.toml`, a `0_system.toml`, a `0_robot.urdf` or a `0_coupled.toml`";
+            let text = format!(
+                "this folder has no input; give a file, or add one of {}",
+                INPUT_NAMES.map(|name| format!("`{name}`")).join(", ")
+            );
             Err(Error::new(ErrorKind::BadValue, text).in_file(folder))
         }
         [first, second, ..] => {
