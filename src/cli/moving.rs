@@ -69,10 +69,11 @@ pub fn described(robot: &Path, options: &ReadOptions) -> Result<(Robot, Meshes)>
     match input.description {
         Description::Robot(read) => Ok((read, Meshes::beside_with(&input.path, options.clone()))),
         _ => {
-            let given =
-                if robot_name(robot).is_some() { "this name is that of a chain without masses, which" } else { "this" };
-            let text =
-                format!("{given} does not describe a robot with links; give one in URDF, xacro, MJCF, SDF or TOML");
+            let given = match robot_name(robot) {
+                Some(_) => "this name is that of a chain, without links and masses",
+                None => "this does not describe a robot with links",
+            };
+            let text = format!("{given}; give a robot with links in URDF, xacro, MJCF, SDF or TOML");
             Err(Error::new(ErrorKind::BadValue, text).in_file(robot))
         }
     }

@@ -82,9 +82,9 @@ the solver in the user's cache folder (GROEBOT_CACHE sets another one); it is de
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// Only robots whose name, vendor, model or source contains each word of this text
-    #[arg(value_name = "TEXT")]
-    part: Option<String>,
+    /// Only robots whose name, vendor, model or source contains each of these words
+    #[arg(value_name = "WORD")]
+    words: Vec<String>,
     /// Print JSON: for each robot name, vendor, model, kind, source, and the check of its numbers
     #[arg(long)]
     json: bool,
@@ -92,8 +92,8 @@ pub struct Arguments {
 
 /// Prints the list.
 pub fn run(arguments: &Arguments) -> Outcome {
-    let part = arguments.part.as_deref().unwrap_or_default();
-    let words: Vec<String> = part.split_whitespace().map(plain).collect();
+    let text = arguments.words.join(" ");
+    let words: Vec<String> = text.split_whitespace().map(plain).collect();
     let has_words = |robot: &&Listed| {
         let texts = [robot.name(), robot.vendor(), robot.model(), robot.source()].map(plain);
         words.iter().all(|word| texts.iter().any(|text| text.contains(word)))
@@ -101,10 +101,10 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let mut robots: Vec<&Listed> = LISTED.iter().filter(has_words).collect();
     if robots.is_empty() {
         let unlisted = |error: Error| {
-            let text = format!("no name, vendor, model or source contains `{}`, and {}", shown(part), error.message());
+            let text = format!("no name, vendor, model or source contains `{}`, and {}", shown(&text), error.message());
             Error::new(error.kind(), text)
         };
-        robots::find(part).map_err(unlisted)?;
+        robots::find(&text).map_err(unlisted)?;
     }
     robots.sort_by_key(|robot| (robot.vendor().to_lowercase(), robot.kind(), robot.name()));
     if arguments.json {

@@ -27,6 +27,7 @@ fn robots_are_listed_by_vendor() {
     for line in ["Universal Robots\n", "ABB\n", "  ur5 ", "unchecked\n"] {
         assert!(list.contains(line), "{line}");
     }
+    assert_eq!(succeed(&["robots", "so", "100"]), succeed(&["robots", "so 100"]));
     let only = succeed(&["robots", "Universal"]);
     assert!(only.contains("  ur5 ") && !only.contains("ABB"));
     assert!(refused(&["robots", "c3po"]).contains("contains `c3po`"));
