@@ -269,6 +269,34 @@ fn numbers_beyond_doubles_are_not_exported() {
     }
 }
 
+/// An arm stands; the world of an MJCF is its world again.
+#[test]
+fn the_root_of_an_arm_is_fixed_in_mjcf() {
+    let folder = tempdir().unwrap();
+    let (file, out) = (folder.path().join("arm.xml"), folder.path().join("out.xml"));
+    let written = |arguments: &[&str]| {
+        succeed(&[&["export", "--to", "mjcf", "-o", text(&out), "--force"], arguments].concat());
+        fs::read_to_string(&out).unwrap()
+    };
+    assert!(!written(&["ur10e"]).contains("freejoint"));
+    assert!(written(&["ur10e", "--root", "free"]).contains("freejoint"));
+    assert!(written(&["nao_v5"]).contains("freejoint"));
+    assert!(!written(&["nao_v5", "--root", "fixed"]).contains("freejoint"));
+    let geom = "<geom size='0.1' pos='0 0 3'/>";
+    fs::write(
+        &file,
+        format!(
+            "<mujoco><worldbody>{geom}<body name='a' pos='1 2 3'><joint name='j'/>{geom}</body></worldbody></mujoco>"
+        ),
+    )
+    .unwrap();
+    let again = written(&[text(&file)]);
+    assert!(!again.contains("freejoint") && !again.contains("world_"), "{again}");
+    let tree = |file: &str| succeed(&["info", file]).lines().take(6).map(str::to_owned).collect::<Vec<_>>();
+    assert_eq!(tree(text(&out)), tree(text(&file)));
+    assert!(refused(&["export", "ur10e", "--to", "sdf", "--root", "fixed"]).contains("--root is for mjcf"));
+}
+
 /// A joint at such a place is refused in an MJCF and an SDF, too. It does not become a joint at the origin.
 #[test]
 fn places_beyond_doubles_are_refused_in_mjcf_and_sdf() {

@@ -45,9 +45,6 @@ struct Answer {
 pub fn run(arguments: &Arguments, states: &Path) -> Outcome {
     let output = arguments.output(Some(states)).expects([arguments.out.as_ref()])?;
     let (robot, _) = described(&arguments.robot, &arguments.part.options())?;
-    if !has_dynamics(&robot) {
-        return Err(massless().in_file(&arguments.robot).into());
-    }
     let (robot, gravity) = arguments.part.of(&robot)?;
     let table = StateTable::read_csv(states)?;
     let report = report(&robot, gravity, arguments, (states, table))?;
@@ -79,6 +76,9 @@ fn report(
     let robot = if reading.followers.is_empty() { robot } else { &without_followers(robot)? };
     notes.extend(reading.note());
     let mut equations = arguments.equations(robot, reading.base)?.with_gravity(gravity);
+    if !has_dynamics(robot) {
+        return Err(massless().in_file(&arguments.robot));
+    }
     if arguments.no_friction {
         equations = equations.without_friction();
     }
