@@ -70,6 +70,16 @@ fn no_cache_derives_and_stores_nothing() {
     assert!(!folder.path().join("cache").exists());
 }
 
+#[test]
+fn a_folder_with_the_name_of_a_robot_is_reported() {
+    let folder = tempdir().unwrap();
+    fs::create_dir(folder.path().join("polar")).unwrap();
+    for arguments in [&["info", "polar"][..], &["solve", "polar", "--target", "0.3,0.2,0.5"]] {
+        let error = String::from_utf8(run_in(&folder, arguments).stderr).unwrap();
+        assert!(error.contains("it hides the robot `polar` by name"), "{error}");
+    }
+}
+
 /// As in a container with a read-only file system, or without a home folder.
 #[test]
 fn a_cache_that_cannot_be_written_is_a_note() {
