@@ -25,16 +25,13 @@ impl Robot {
     ///
     /// # Errors
     /// [`ErrorKind::Syntax`] for text that is not TOML; [`ErrorKind::UnknownKey`], [`ErrorKind::MissingKey`];
-    /// [`ErrorKind::BadValue`] for a wrong type or value; [`ErrorKind::Unsupported`] for a chain or a Denavit-Hartenberg table; those of [`Robot::new`]. All but
-    /// [`ErrorKind::Unsupported`] have a line.
+    /// [`ErrorKind::BadValue`] for a wrong type or value; those of [`Robot::new`]. All have a line.
     pub fn from_toml(text: &str) -> Result<Robot> {
         let document = Document::parse(text)?;
         let root = document.root();
-        if let Some(key) = ["dh", "tip", "chain"].into_iter().find(|key| root.optional(key).is_some()) {
-            let text = format!(
-                "this describes a chain (`{key}`), whose solver can be derived; it has no links, and a robot has `link` and `joint`"
-            );
-            return Err(Error::new(ErrorKind::Unsupported, text));
+        if let Some(node) = ["dh", "tip", "chain"].into_iter().find_map(|key| root.optional(key)) {
+            let text = "this describes a chain, whose solver can be derived; it has no links, and a robot has `link` and `joint`";
+            return Err(node.error(ErrorKind::UnknownKey, text));
         }
         root.deny_unknown(&KEYS)?;
         let reader = Reader { units: read_units(root)? };
