@@ -736,8 +736,14 @@ class Robot:
         *,
         floating: bool = False,
         gravity: npt.ArrayLike | None = None,
+        packages: Mapping[str, _File] | None = None,
+        arguments: Mapping[str, str] | None = None,
     ) -> Robot:
-        """Reads a file of any robot format: URDF, xacro, MJCF, SDF or TOML. The other arguments are those of `from_urdf`."""
+        """Reads a file of any robot format: URDF, xacro, MJCF, SDF or TOML, or the YAML calibration of an arm of Universal Robots.
+
+        `packages` has the folders of packages by name, for xacro and meshes. Others are searched in `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`. `arguments` has the
+        values of xacro's arguments by name. The other arguments are those of `from_urdf`. A DH table has no links: `derive` takes its path.
+        """
     @staticmethod
     def named(
         name: str,

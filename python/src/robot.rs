@@ -1,5 +1,6 @@
 //! The model of a robot as a Python class. Main type: [`Robot`].
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
@@ -7,6 +8,7 @@ use groebot::derive::Ends;
 use groebot::document::{XmlText, as_utf8, read_xml};
 use groebot::dynamics::{Base, Equations, State};
 use groebot::limits::XML_BYTES;
+use groebot::model::ReadOptions;
 use groebot::{ErrorKind, model, robots};
 use nalgebra::Vector3;
 use pyo3::prelude::*;
@@ -61,17 +63,27 @@ impl Robot {
         Robot::of(robot, text, [base, tip], floating, gravity)
     }
 
-    /// Reads a file of any robot format: URDF, xacro, MJCF, SDF or TOML. The other arguments are those of `from_urdf`.
+    /// Reads a file of any robot format: URDF, xacro, MJCF, SDF or TOML, or the YAML calibration of an arm of Universal Robots.
+    ///
+    /// `packages` has the folders of packages by name, for xacro and meshes. Others are searched in `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`. `arguments` has the
+    /// values of xacro's arguments by name. The other arguments are those of `from_urdf`. A DH table has no links: `derive` takes its path.
     #[staticmethod]
-    #[pyo3(signature = (path, base=None, tip=None, *, floating=false, gravity=None))]
+    #[pyo3(signature = (path, base=None, tip=None, *, floating=false, gravity=None, packages=None, arguments=None))]
     fn load(
         path: PathBuf,
         base: Option<String>,
         tip: Option<String>,
         floating: bool,
         gravity: Option<&Bound<'_, PyAny>>,
+        packages: Option<BTreeMap<String, PathBuf>>,
+        arguments: Option<BTreeMap<String, String>>,
     ) -> PyResult<Self> {
-        let robot = model::Robot::read(&path).map_err(|error| raised(&error))?;
+        let options = ReadOptions::from_environment();
+        let options =
+            packages.unwrap_or_default().into_iter().fold(options, |all, (name, path)| all.package(name, path));
+        let given = arguments.unwrap_or_default().into_iter();
+        let options = given.fold(options, |all, (name, value)| all.argument(name, value));
+        let robot = model::Robot::read_with(&path, &options).map_err(|error| raised(&error))?;
         // The text of a URDF is kept, with its line numbers, if it needs no expansion.
         let is_urdf = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("urdf"));
         let own = is_urdf.then(|| read_xml(&path, XML_BYTES)).transpose().map_err(|error| raised(&error))?;

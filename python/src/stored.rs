@@ -119,13 +119,17 @@ impl Stored {
         scanned.into_iter().map(|joint| self.program.joints[joint].name.as_str()).collect()
     }
 
-    /// Returns the solver of a robot by name, from the user's cache.
+    /// Returns the solver of a robot by name, from the user's cache. Where that cannot be written, the solver is derived at each call.
     ///
     /// # Errors
     /// [`ErrorKind::UnknownName`] with similar names; as [`SolverCache::derivation`].
     pub fn cached(name: &str, watch: &Watch) -> Result<Self> {
         let robot = robots::find(name)?;
-        Stored::load(&SolverCache::of_user()?.derivation(robot, watch)?)
+        if let Ok(cache) = SolverCache::of_user().and_then(|cache| cache.check(robot).map(|()| cache)) {
+            return Stored::load(&cache.derivation(robot, watch)?);
+        }
+        let folder = tempfile::tempdir().map_err(|error| Error::io(&std::env::temp_dir(), &error))?;
+        Stored::load(&SolverCache::new(folder.path()).derivation(robot, watch)?)
     }
 
     /// Returns a solver of the wheel.

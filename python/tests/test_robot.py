@@ -211,3 +211,38 @@ def test_states_that_are_none_are_refused():
     for name, value in {"q": [1.0], "orientation": [1, 1, 1, 1], "angular_velocity": [np.nan, 0, 0], "soles": np.zeros(6), "time": np.inf}.items():
         with pytest.raises(groebot.BadValueError):
             stabilizer.step(**(good | {name: value}))
+
+
+def test_a_xacro_has_packages_and_arguments(tmp_path):
+    (tmp_path / "part.xacro").write_text(
+        '<robot xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:macro name="part" params="z"><link name="tool"/><joint name="j" type="continuous">'
+        '<parent link="base"/><child link="tool"/><origin xyz="0 0 ${z}"/></joint></xacro:macro></robot>'
+    )
+    arm = tmp_path / "desc" / "arm.urdf.xacro"
+    arm.parent.mkdir()
+    arm.write_text(
+        '<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:arg name="z" default="1"/><xacro:include filename="$(find parts)/part.xacro"/>'
+        '<link name="base"/><xacro:part z="$(arg z)"/></robot>'
+    )
+    with pytest.raises(groebot.GroebotError, match="the package `parts` is not found"):
+        Robot.load(arm)
+    read = Robot.load(arm, packages={"parts": tmp_path}, arguments={"z": "0.25"})
+    assert read.joints == ["j"]
+    assert 'xyz="0 0 0.25"' in read.to_urdf()
+    assert 'xyz="0 0 1"' in Robot.load(arm, packages={"parts": str(tmp_path)}).to_urdf()
+
+
+def test_a_dh_table_is_derived_but_is_no_robot(tmp_path):
+    table = tmp_path / "table.csv"
+    table.write_text("# convention: standard\nname,theta,d,a,alpha\nj1,q1,0,1,0\nj2,q2,0,1,0\n")
+    with pytest.raises(groebot.GroebotError, match="`dh`: this describes a chain"):
+        Robot.load(table)
+    assert groebot.derive(table, "planar_position", plane="xy").joints == ["j1", "j2"]
+
+
+def test_a_cache_that_cannot_be_written_is_not_used(tmp_path, monkeypatch):
+    file = tmp_path / "file"
+    file.write_text("mine")
+    monkeypatch.setenv("GROEBOT_CACHE", str(file))
+    assert groebot.Solver.named("abb_irb140").name == "abb_irb140"
+    assert file.read_text() == "mine"

@@ -25,7 +25,7 @@ In Python `groebot.Solver.named("ur10e")`, in Rust `groebot::robots::by_name("ur
 `solve`, `codegen`, `view`, `reach` and `explain` use a solver that is derived at its first use, in seconds, and stored in the user's cache folder:
 `GROEBOT_CACHE`, else `groebot/solvers` in `XDG_CACHE_HOME` or `~/.cache` (`~/Library/Caches` on macOS, `LOCALAPPDATA` on Windows). The name of the stored
 folder contains the version of groebot and a hash of the description. Each stored file has a hash; a damaged folder is derived again. `--no-cache` derives
-without it.
+without it. Where the cache cannot be written, the solver is derived at each call, with a note.
 
 Base and tip are frames of the source. This page is written by `scripts/robots/run --table` from
 [index.toml](../crates/robot/src/robots/index.toml). `groebot robots` also lists the humanoids of groebot's own walks, their limbs, and three arms of textbooks.

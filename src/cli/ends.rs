@@ -25,15 +25,15 @@ const PLANES: [Plane; 3] = [Plane::Xy, Plane::Xz, Plane::Yz];
 /// The first and the last link of the chain, and its task.
 #[derive(clap::Args)]
 pub struct EndArguments {
-    /// URDF: the first link of the chain (default: the root)
+    /// Of a robot: the first link of the chain (default: the root)
     #[arg(long, value_name = "LINK")]
     base: Option<String>,
-    /// URDF: the last link of the chain (default: the only leaf link, else the only one named tool0, flange, tcp or
+    /// Of a robot: the last link of the chain (default: the only leaf link, else the only one named tool0, flange, tcp or
     /// ee_link, in that order)
     #[arg(long, value_name = "LINK")]
     tip: Option<String>,
     /// The task of the tip: pose, position, ray, direction, rotation, position_pitch_roll, position_yaw,
-    /// planar_position or planar_pose (default: as described; for a URDF, pose)
+    /// planar_position or planar_pose (default: as described; for a robot, pose)
     #[arg(long, value_name = "TASK", value_parser = task)]
     task: Option<RequestedTask>,
     /// The plane of the base frame in which a planar task moves: xy, xz or yz

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
+use super::named::is_chain;
 use super::output::{Force, Kind};
 use super::walker::{self, SoleArguments};
 use super::{Outcome, console, json, moving};
@@ -27,7 +28,7 @@ Robots of groebot: nao_v5, rh0, teo. A walk, a path of an arm or a recording bec
 scene with one node per link, y up, in metres. VRML is read with the nodes of RH0 Fig. 5-4 only.
 
 In MJCF the root moves freely above a floor and every joint has a position servo. Only the floor has
-contacts. Meshes are referred to by their files; text meshes, which MuJoCo does not read, are
+contacts. The root is fixed if its link is called `world`, or if the robot is an arm, a hand or a leg by name. Meshes are referred to by their files; text meshes, which MuJoCo does not read, are
 written anew. With --outline the soles are boxes, as in `walk`.";
 
 /// A format of robots or scenes.
@@ -47,6 +48,15 @@ enum Format {
     Sdf,
 }
 
+/// The motion of a robot's root in MJCF.
+#[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Root {
+    /// It moves freely
+    Free,
+    /// It is fixed in the world
+    Fixed,
+}
+
 /// Exports a motion as an animated scene, or a robot, with masses, shapes, limits and actuators, in another format
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
@@ -60,6 +70,9 @@ pub struct Arguments {
     /// The moving robot, if the motion does not name a robot of groebot
     #[arg(long, value_name = "ROBOT-or-FILE")]
     robot: Option<PathBuf>,
+    /// MJCF: the motion of the root link [default: fixed for a link called `world` and for arms, hands and legs by name, else free]
+    #[arg(long, value_enum)]
+    root: Option<Root>,
     #[command(flatten)]
     soles: SoleArguments,
     /// Include the triangles of STL meshes in the scene
@@ -164,13 +177,26 @@ impl Arguments {
         let robot = if self.soles.is_given() { walker::with_soles(robot, &meshes, &self.soles)?.robot } else { robot };
         omissions.add(&robot);
         if self.to == Format::Mjcf {
-            return robot.to_mjcf(&meshes, &mut omissions.warnings).map_err(|error| error.in_file(&self.input));
+            let text = match self.root_of(&robot) {
+                Root::Free => robot.to_mjcf(&meshes, &mut omissions.warnings),
+                Root::Fixed => robot.to_mjcf_fixed(&meshes, &mut omissions.warnings),
+            };
+            return text.map_err(|error| error.in_file(&self.input));
+        }
+        if self.root.is_some() {
+            return Err(refused("--root is for mjcf; leave it out"));
         }
         if self.to == Format::Sdf {
             let text = robot.to_sdf(&mut omissions.warnings).map_err(|error| error.in_file(&self.input))?;
             return self.reread(text, |text| Robot::from_sdf(text, None));
         }
         self.reread(robot.to_urdf(), Robot::from_urdf)
+    }
+
+    /// The motion of the root of `robot`.
+    fn root_of(&self, robot: &Robot) -> Root {
+        let is_fixed = robot.root() == "world" || is_chain(&self.input);
+        self.root.unwrap_or(if is_fixed { Root::Fixed } else { Root::Free })
     }
 
     /// `text` if it is read back as a robot without faults.
@@ -182,6 +208,9 @@ impl Arguments {
 
     fn scene(&self, omissions: &mut Omissions) -> Result<Scene> {
         let file = &self.input;
+        if self.root.is_some() {
+            return Err(refused("--root is for mjcf; leave it out").in_file(file));
+        }
         if self.soles.is_given() {
             let text =
                 "--left, --right and --outline are for urdf, mjcf and sdf, where they replace the shapes of the soles";
@@ -200,7 +229,7 @@ impl Arguments {
             Some(motion) => {
                 moving::robot_of(motion, self.robot.as_deref(), options).map_err(|error| error.in_file(file))?
             }
-            None => moving::robot(file, options)?,
+            None => moving::described(file, options)?,
         };
         omissions.add(&robot);
         let scene = Scene::of_robot(&robot, self.meshes.then_some(&meshes), motion.as_ref());

@@ -278,9 +278,9 @@ fn limits(joint: &Joint, unit: &str) -> String {
     }
 }
 
-/// Numbers in columns, nine decimals; values that round to zero have no sign.
+/// Numbers in columns with a blank before each, nine decimals; values that round to zero have no sign.
 fn numbers(values: &[f64]) -> String {
-    values.iter().map(|value| format!("{:>14}", fixed(*value, 9))).collect()
+    values.iter().map(|value| format!(" {:>13}", fixed(*value, 9))).collect()
 }
 
 #[derive(Serialize)]

@@ -169,12 +169,15 @@ fn joint_row(index: usize, joint: &Joint, unit: &str) -> Vec<String> {
     vec![(index + 1).to_string(), joint.name.clone(), motion, point, limits]
 }
 
-/// A direction: integers unchanged, others as the unit vector.
+/// The greatest integer of a direction that is shown unchanged.
+const GREATEST: f64 = 100.0;
+
+/// A direction: small integers unchanged, others as the unit vector.
 fn direction(axis: &ExactVector) -> String {
-    if axis.iter().all(|entry| entry.is_integer()) {
+    let entries = axis.each_ref().map(|entry| entry.to_f64().unwrap_or(f64::NAN));
+    if axis.iter().all(|entry| entry.is_integer()) && entries.iter().all(|entry| entry.abs() <= GREATEST) {
         return vector(axis);
     }
-    let entries = axis.each_ref().map(|entry| entry.to_f64().unwrap_or(f64::NAN));
     let length = entries.iter().map(|entry| entry * entry).sum::<f64>().sqrt();
     format!("({})", entries.map(|entry| tidy(entry / length)).join(", "))
 }

@@ -5,8 +5,9 @@ use std::path::Path;
 use crate::{Error, ErrorKind, Result};
 use groebot_humanoid::sim::TaskRecord;
 use groebot_humanoid::view::WalkRecord;
+use groebot_ik::derive::problem::input::robot_name;
 use groebot_ik::derive::{Description, InputFile};
-use groebot_robot::document::{is_stdin, read_text, shown};
+use groebot_robot::document::{read_text, shown};
 use groebot_robot::model::{Meshes, ReadOptions, Robot};
 use groebot_robot::motion::Trajectory;
 use groebot_robot::motion::table::TABLE_LIMIT;
@@ -48,7 +49,7 @@ pub fn robot_of(
 ) -> Result<(Robot, Meshes)> {
     let own = || robots::robot(&trajectory.robot).map(|robot| (robot, Meshes::default()));
     match described_by {
-        Some(name) => robot(name, options),
+        Some(name) => described(name, options),
         None => own().ok_or_else(|| {
             let text = format!(
                 "its robot `{}` is not a robot of groebot; give its description by --robot, or nao, rh0 or teo",
@@ -57,18 +58,6 @@ pub fn robot_of(
             Error::new(ErrorKind::UnknownName, text)
         }),
     }
-}
-
-/// Same as [`described`], but the error for another name lists the robots.
-pub fn robot(name: &Path, options: &ReadOptions) -> Result<(Robot, Meshes)> {
-    if !is_stdin(name) && !name.exists() && name.to_str().and_then(robots::robot).is_none() {
-        let text = format!(
-            "`{}` is neither a file nor a robot of groebot; give a file, nao, rh0 or teo",
-            shown(&name.to_string_lossy())
-        );
-        return Err(Error::new(ErrorKind::UnknownName, text));
-    }
-    described(name, options)
 }
 
 /// A robot of this crate by its name, or from a file.
@@ -80,7 +69,11 @@ pub fn described(robot: &Path, options: &ReadOptions) -> Result<(Robot, Meshes)>
     match input.description {
         Description::Robot(read) => Ok((read, Meshes::beside_with(&input.path, options.clone()))),
         _ => {
-            let text = "this does not describe a robot with links; give one in URDF, xacro, MJCF, SDF or TOML";
+            let given = match robot_name(robot) {
+                Some(_) => "this name is that of a chain, without links and masses",
+                None => "this does not describe a robot with links",
+            };
+            let text = format!("{given}; give a robot with links in URDF, xacro, MJCF, SDF or TOML");
             Err(Error::new(ErrorKind::BadValue, text).in_file(robot))
         }
     }

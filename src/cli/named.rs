@@ -10,6 +10,7 @@ use super::{Outcome, console, json};
 use crate::{Error, Result};
 use groebot_ik::derive::problem::input::{named_robot, robot_name};
 use groebot_ik::folder::SolverCache;
+use groebot_robot::document::shown;
 use groebot_robot::robots::{self, Kind, LISTED, Listed};
 
 /// Options of commands that use a derived solver.
@@ -42,13 +43,24 @@ impl CacheArguments {
     pub fn derivation(&self, path: &Path) -> Result<SolverPath> {
         let Some(name) = robot_name(path) else { return Ok(SolverPath { path: path.to_owned(), _uncached: None }) };
         let robot = named_robot(name)?;
-        let uncached = self.no_cache.then(TempDir::new).transpose();
-        let uncached = uncached.map_err(|error| Error::io(&std::env::temp_dir(), &error))?;
-        let cache =
-            uncached.as_ref().map_or_else(SolverCache::of_user, |folder| Ok(SolverCache::new(folder.path())))?;
+        let cache = if self.no_cache { None } else { usable_cache(robot) };
+        let (cache, uncached) = match cache {
+            Some(cache) => (cache, None),
+            None => {
+                let folder = TempDir::new().map_err(|error| Error::io(&std::env::temp_dir(), &error))?;
+                (SolverCache::new(folder.path()), Some(folder))
+            }
+        };
         let session = Session::start(Limits::default())?;
         Ok(SolverPath { path: cache.derivation(robot, &session.watch)?, _uncached: uncached })
     }
+}
+
+/// The user's cache. If it does not have the derivation of `robot` and cannot store it: `None`, with a note.
+fn usable_cache(robot: &Listed) -> Option<SolverCache> {
+    let cache = SolverCache::of_user().and_then(|cache| cache.check(robot).map(|()| cache));
+    let told = |error: &Error| console::print_notes(&[format!("`{}` is derived at each call: {error}", robot.name())]);
+    cache.inspect_err(told).ok()
 }
 
 /// Whether `path` is the name of a robot with a solver.
@@ -58,7 +70,7 @@ pub fn is_chain(path: &Path) -> bool {
 
 const EXAMPLES: &str = "Examples:
   groebot robots                       all, by vendor
-  groebot robots kuka                  those whose name, vendor or model contains `kuka`
+  groebot robots kuka                  those whose name, vendor, model or source contains `kuka`
   groebot robots --json
   groebot derive franka_panda          derives the solver into the folder franka_panda
   groebot solve ur10e --target 0.5,0.2,0.4,0,1,0,0
@@ -70,9 +82,9 @@ the solver in the user's cache folder (GROEBOT_CACHE sets another one); it is de
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// Only robots whose name, vendor or model contains this text
-    #[arg(value_name = "TEXT")]
-    part: Option<String>,
+    /// Only robots whose name, vendor, model or source contains each of these words
+    #[arg(value_name = "WORD")]
+    words: Vec<String>,
     /// Print JSON: for each robot name, vendor, model, kind, source, and the check of its numbers
     #[arg(long)]
     json: bool,
@@ -80,13 +92,19 @@ pub struct Arguments {
 
 /// Prints the list.
 pub fn run(arguments: &Arguments) -> Outcome {
-    let part = arguments.part.as_deref().unwrap_or_default().to_lowercase();
-    let has_part = |robot: &&Listed| {
-        [robot.name(), robot.vendor(), robot.model()].iter().any(|text| text.to_lowercase().contains(&part))
+    let text = arguments.words.join(" ");
+    let words: Vec<String> = text.split_whitespace().map(plain).collect();
+    let has_words = |robot: &&Listed| {
+        let texts = [robot.name(), robot.vendor(), robot.model(), robot.source()].map(plain);
+        words.iter().all(|word| texts.iter().any(|text| text.contains(word)))
     };
-    let mut robots: Vec<&Listed> = LISTED.iter().filter(has_part).collect();
+    let mut robots: Vec<&Listed> = LISTED.iter().filter(has_words).collect();
     if robots.is_empty() {
-        named_robot(&part)?;
+        let unlisted = |error: Error| {
+            let text = format!("no name, vendor, model or source contains `{}`, and {}", shown(&text), error.message());
+            Error::new(error.kind(), text)
+        };
+        robots::find(&text).map_err(unlisted)?;
     }
     robots.sort_by_key(|robot| (robot.vendor().to_lowercase(), robot.kind(), robot.name()));
     if arguments.json {
@@ -94,6 +112,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
         return console::print(&json::text(&json!({ "format": json::FORMAT, "robots": robots })));
     }
     console::print(&table(&robots))
+}
+
+/// Text for comparisons: in lower case, without hyphens and underscores, `ä` as `a`.
+fn plain(text: &str) -> String {
+    text.to_lowercase().replace('ä', "a").replace(['_', '-'], "")
 }
 
 /// A robot as JSON.

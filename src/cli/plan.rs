@@ -33,7 +33,7 @@ pub struct Arguments {
 /// The chain.
 #[derive(clap::Args)]
 pub struct Mechanism {
-    /// A mechanism's folder, a file (chain.toml, DH table, URDF; `-` for standard input), or a robot of groebot by name
+    /// A mechanism's folder, a file (chain.toml, DH table, URDF, xacro, MJCF, SDF; `-` for standard input), or a robot of groebot by name
     #[arg(value_name = "DIR-FILE-or-ROBOT")]
     input: PathBuf,
     #[command(flatten)]

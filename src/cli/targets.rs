@@ -7,7 +7,7 @@ use csv::{ReaderBuilder, StringRecord, Trim};
 
 use super::columns::{Columns, Found};
 use crate::{Error, ErrorKind, Result};
-use groebot_algebra::limits;
+use groebot_algebra::limits::{self, LARGEST};
 use groebot_robot::document::is_stdin;
 
 /// The name of standard input in errors.
@@ -36,7 +36,9 @@ fn number(name: &str, index: usize, cell: &str) -> Result<f64> {
     let fail = |text: String| Error::new(ErrorKind::BadValue, format!("cell {}{} is {text}", index + 1, name()));
     match cell.parse::<f64>() {
         // The caller refuses numbers that are not finite, with their names.
-        Ok(value) if value.is_finite() => limits::number(cell).map_err(fail),
+        Ok(value) if value.is_finite() && value.abs() > LARGEST => {
+            Err(fail(format!("`{}`, which is too large; give at most {LARGEST:e}", shown(cell))))
+        }
         Ok(value) => Ok(value),
         Err(_) => {
             let text = format!("`{}`, which is not a number; give a decimal number such as 12.5 or -3e2", shown(cell));

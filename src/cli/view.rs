@@ -126,7 +126,7 @@ impl Arguments {
             }
             None if file.is_dir() || is_chain(file) => derivation(self.cache.derivation(file)?.path()),
             None => {
-                let (robot, meshes) = moving::robot(file, &self.described.options())?;
+                let (robot, meshes) = moving::described(file, &self.described.options())?;
                 let page = Page::of_robot(&robot, self.meshes.then_some(&meshes))?;
                 let page = self.solved(page, &robot).map_err(|error| error.in_file(file))?;
                 self.room.as_ref().map_or(Ok(page.clone()), |room| self.running(page, room))

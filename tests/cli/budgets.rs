@@ -123,6 +123,11 @@ fn options_that_multiply_work_are_bounded() {
         "<robot name='bare'><link name='a'/><link name='b'/><joint name='j' type='continuous'><parent link='a'/><child link='b'/></joint></robot>",
     );
     assert!(refused(&["dynamics", &bare, "--lang", "rust"]).contains("no link has a mass"));
+    let one = at("one.csv", "q0\n0.1\n");
+    let seven = at("seven.csv", "q0,q1,q2,q3,q4,q5,q6\n0,0,0,-1,0,1,0\n");
+    for (robot, states) in [(bare.as_str(), &one), ("franka_panda", &seven)] {
+        assert!(refused(&["dynamics", robot, "--states", states]).contains("no link has a mass"));
+    }
 }
 
 #[test]

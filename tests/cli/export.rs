@@ -157,7 +157,7 @@ fn what_is_no_scene_is_refused() {
     let telescope = text(&telescope);
     check_message(&[&motion, "--to", "glb"], "motion.csv: its robot `somebody` is not a robot of groebot");
     check_message(&[&motion, "--robot", "nao", "--to", "x3d"], "no joint `lift`");
-    check_message(&[&motion, "--robot", "c3po", "--to", "x3d"], "`c3po` is neither a file nor a robot of groebot");
+    check_message(&[&motion, "--robot", "c3po", "--to", "x3d"], "there is no such file, and no robot is called `c3po`");
     check_message(
         &[&motion, "--to", "mjcf"],
         "motion.csv: urdf, mjcf and sdf describe a robot, not a motion or a scene",
@@ -265,6 +265,61 @@ fn numbers_beyond_doubles_are_not_exported() {
             let error = refused(&["export", text(&file), "--to", format, "-o", text(&out)]);
             assert!(error.contains("robot.urdf") && !out.exists(), "{error}");
             assert!(error.contains("finite") || error.contains("double"), "{error}");
+        }
+    }
+}
+
+/// An arm stands; the world of an MJCF is its world again.
+#[test]
+fn the_root_of_an_arm_is_fixed_in_mjcf() {
+    let folder = tempdir().unwrap();
+    let (file, out) = (folder.path().join("arm.xml"), folder.path().join("out.xml"));
+    let written = |arguments: &[&str]| {
+        succeed(&[&["export", "--to", "mjcf", "-o", text(&out), "--force"], arguments].concat());
+        fs::read_to_string(&out).unwrap()
+    };
+    assert!(!written(&["ur10e"]).contains("freejoint"));
+    assert!(written(&["ur10e", "--root", "free"]).contains("freejoint"));
+    assert!(written(&["nao_v5"]).contains("freejoint"));
+    assert!(!written(&["nao_v5", "--root", "fixed"]).contains("freejoint"));
+    let geom = "<geom size='0.1' pos='0 0 3'/>";
+    fs::write(
+        &file,
+        format!(
+            "<mujoco><worldbody>{geom}<body name='a' pos='1 2 3'><joint name='j'/>{geom}</body></worldbody></mujoco>"
+        ),
+    )
+    .unwrap();
+    let again = written(&[text(&file)]);
+    assert!(!again.contains("freejoint") && !again.contains("world_"), "{again}");
+    let tree = |file: &str| succeed(&["info", file]).lines().take(6).map(str::to_owned).collect::<Vec<_>>();
+    assert_eq!(tree(text(&out)), tree(text(&file)));
+    assert!(refused(&["export", "ur10e", "--to", "sdf", "--root", "fixed"]).contains("--root is for mjcf"));
+}
+
+/// A joint at such a place is refused in an MJCF and an SDF, too. It does not become a joint at the origin.
+#[test]
+fn places_beyond_doubles_are_refused_in_mjcf_and_sdf() {
+    let folder = tempdir().unwrap();
+    let mjcf = |place: &str| {
+        format!(
+            "<mujoco><worldbody><body name='a' pos='1 2 {place}'><joint name='j'/><geom size='1'/></body></worldbody></mujoco>"
+        )
+    };
+    let sdf = |place: &str| {
+        format!(
+            "<sdf version='1.9'><model name='r'><link name='w'/><link name='a'><pose>1 2 {place} 0 0 0</pose></link><joint name='j' \
+             type='revolute'><parent>w</parent><child>a</child><axis><xyz>0 0 1</xyz></axis></joint></model></sdf>"
+        )
+    };
+    for (name, good, bad) in [("r.xml", mjcf("3"), mjcf("1e400")), ("r.sdf", sdf("3"), sdf("1e400"))] {
+        let file = folder.path().join(name);
+        fs::write(&file, good).unwrap();
+        assert!(succeed(&["fk", text(&file), "--q", "1"]).contains("3.000000000 m"));
+        fs::write(&file, bad).unwrap();
+        for command in [&["fk", "--q", "1"][..], &["export", "--to", "urdf"], &["export", "--to", "sdf"]] {
+            let error = refused(&[&[command[0], text(&file)], &command[1..]].concat());
+            assert!(error.contains(name) && error.contains("joint `j`") && error.contains("double"), "{error}");
         }
     }
 }

@@ -85,6 +85,17 @@ fn text_shows_units_and_limits() {
     assert_eq!(answer["outside_limits"], Value::from(vec!["HeadPitch"]));
 }
 
+/// An angle of -162.8 degrees is as wide as its column.
+#[test]
+fn columns_of_text_are_separated() {
+    let text = succeed(&["fk", "ur10e", "--q", "0,-0.4,0.3,2,1,-2"]);
+    let rows = text.lines().skip_while(|line| !line.contains("position")).filter(|line| !line.trim().is_empty());
+    for row in rows {
+        assert!(row.split_whitespace().all(|word| word.matches('.').count() <= 1), "{text}");
+    }
+    assert!(text.lines().any(|line| line.trim_start().starts_with("roll") && line.ends_with(" rad")), "{text}");
+}
+
 #[test]
 fn csv_reports_what_json_reports_and_reads_its_own_output() {
     let ran = run_on(&["fk", &leg()], b"0,0\n 0.3, 0.6\n\n");

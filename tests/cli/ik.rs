@@ -75,6 +75,19 @@ fn bad_targets_are_refused() {
     assert!(refused(&["ik", "polar", "--target", "1,2,3,4"]).contains("a position has 3 numbers"));
 }
 
+/// Seven numbers for an arm with a given joint: a quaternion without the joint's value, or three angles with it.
+#[test]
+fn a_quaternion_without_the_value_of_the_given_joint_is_refused() {
+    let solved = |target: &str| run(&["ik", "kuka_iiwa14", "--given", "joint_5", "--target", target]);
+    let error = solved("0.4,0.1,0.5,0,0.6,0,0.8").err;
+    assert!(error.contains("the last four may be a quaternion") && error.contains("joint_5"), "{error}");
+    let [quaternion, angles] = ["0.4,0.1,0.5,0,0,0,1,0.3", "0.4,0.1,0.5,0,0,0,0.3"].map(|target| solved(target).out);
+    let rows =
+        |text: &str| text.lines().skip(2).map(|row| row.split("  ").take(9).collect::<String>()).collect::<Vec<_>>();
+    assert!(!rows(&quaternion).is_empty());
+    assert_eq!(rows(&quaternion), rows(&angles));
+}
+
 /// A Stanford arm whose prismatic joint is after the first wrist axis: no method of groebot solves it in closed form.
 const SLIDE_IN_THE_WRIST: &str = r#"
 name = "arm"

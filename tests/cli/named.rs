@@ -27,9 +27,19 @@ fn robots_are_listed_by_vendor() {
     for line in ["Universal Robots\n", "ABB\n", "  ur5 ", "unchecked\n"] {
         assert!(list.contains(line), "{line}");
     }
+    assert_eq!(succeed(&["robots", "so", "100"]), succeed(&["robots", "so 100"]));
     let only = succeed(&["robots", "Universal"]);
     assert!(only.contains("  ur5 ") && !only.contains("ABB"));
-    assert!(refused(&["robots", "c3po"]).contains("no robot is called `c3po`"));
+    assert!(refused(&["robots", "c3po"]).contains("contains `c3po`"));
+    for (words, name) in [
+        ("Stäubli", "staubli_rx160"),
+        ("kuka iiwa", "kuka_iiwa7"),
+        ("UR-10e", "ur10e"),
+        ("interbotix", "trossen_wx250"),
+    ] {
+        let found = succeed(&["robots", words]);
+        assert!(found.contains(&format!("  {name} ")), "{words}: {found}");
+    }
 }
 
 #[test]
@@ -58,6 +68,40 @@ fn no_cache_derives_and_stores_nothing() {
     let code = printed(&folder, &["codegen", "polar", "--lang", "rust", "--no-cache"]);
     assert!(code.contains("polar"));
     assert!(!folder.path().join("cache").exists());
+}
+
+#[test]
+fn a_folder_with_the_name_of_a_robot_is_reported() {
+    let folder = tempdir().unwrap();
+    fs::create_dir(folder.path().join("polar")).unwrap();
+    for arguments in [&["info", "polar"][..], &["solve", "polar", "--target", "0.3,0.2,0.5"]] {
+        let error = String::from_utf8(run_in(&folder, arguments).stderr).unwrap();
+        assert!(error.contains("it hides the robot `polar` by name"), "{error}");
+    }
+}
+
+/// As in a container with a read-only file system, or without a home folder.
+#[test]
+fn a_cache_that_cannot_be_written_is_a_note() {
+    let folder = tempdir().unwrap();
+    let file = folder.path().join("file");
+    fs::write(&file, "mine").unwrap();
+    let expected = printed(&folder, &["solve", "polar", "--target", "0.3,0.2,0.5"]);
+    let solve = || {
+        let mut command = groebot(&["solve", "polar", "--target", "0.3,0.2,0.5"]);
+        command.current_dir(folder.path());
+        command
+    };
+    let blocked = solve().env("GROEBOT_CACHE", &file).output().unwrap();
+    let below = solve().env("GROEBOT_CACHE", file.join("below")).output().unwrap();
+    let homeless =
+        solve().env_remove("GROEBOT_CACHE").env_remove("HOME").env_remove("XDG_CACHE_HOME").output().unwrap();
+    for output in [blocked, below, homeless] {
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(String::from_utf8_lossy(&output.stdout), expected, "{error}");
+        assert!(error.contains("note: `polar` is derived at each call") && error.contains("GROEBOT_CACHE"), "{error}");
+    }
+    assert_eq!(fs::read_to_string(&file).unwrap(), "mine");
 }
 
 #[test]

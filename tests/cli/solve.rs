@@ -204,6 +204,7 @@ fn a_bad_row_names_its_line() {
         ("px,px,pz\n60,60,150\n", "<stdin>: line 1: column 2 of the first row, `px`, is given twice"),
         ("px,pz\n60,150,1\n", "<stdin>: line 2: the row has 3 cells, and the first one 2 names"),
         ("1,x\n", "<stdin>: line 1: cell 2"),
+        ("1,1e16\n", "<stdin>: line 1: cell 2 (`pz`) is `1e16`, which is too large; give at most 1e15"),
     ];
     for (input, words) in cases {
         let ran = stream(input, &[]);

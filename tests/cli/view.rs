@@ -64,7 +64,7 @@ fn what_is_no_walk_and_no_robot_is_refused() {
         assert!(error.contains(words), "{error}");
         assert!(!page.exists());
     };
-    check_message(&["nobody"], "`nobody` is neither a file nor a robot of groebot; give a file, nao, rh0 or teo");
+    check_message(&["nobody"], "there is no such file, and no robot is called `nobody`");
     check_message(&[&at("a.csv", "x,y\n1,2\n")], "a.csv: line 1: the first line is `x,y`; a trajectory begins with");
     check_message(&[&at("b.json", "{\"format\": 1, \"walk\": 3}")], "b.json: line 1: this is no trajectory in JSON");
     check_message(&[&at("c.json", "[]")], "c.json");

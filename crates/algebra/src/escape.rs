@@ -40,7 +40,11 @@ fn replaced(text: &str, is_bad: impl Fn(char) -> bool) -> Cow<'_, str> {
 /// Shortens `text` to 40 characters for a message and escapes control characters.
 pub fn shown(text: &str) -> String {
     let dots = if text.chars().nth(MOST_SHOWN).is_some() { "..." } else { "" };
-    text.chars().take(MOST_SHOWN).flat_map(char::escape_debug).chain(dots.chars()).collect()
+    let mut short = String::new();
+    for c in text.chars().take(MOST_SHOWN) {
+        if SIGNS.contains(&c) || c == '\\' { short.push(c) } else { short.extend(c.escape_debug()) }
+    }
+    short + dots
 }
 
 /// Limits each quotation and each word of a message to [`MOST_ECHOED`] characters and escapes hidden ones. A quotation

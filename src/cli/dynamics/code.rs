@@ -6,7 +6,7 @@ use clap::ValueEnum;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use serde_json::Value;
 
-use super::Arguments;
+use super::{Arguments, massless};
 use crate::cli::codegen::{refuse_run_time, write_pair};
 use crate::cli::moving::described;
 use crate::cli::output::{Kind, Output};
@@ -105,7 +105,7 @@ fn check(robot: &Robot) -> Result<()> {
     if robot.links().iter().any(|link| link.mass.is_some()) {
         return Ok(());
     }
-    Err(Error::new(ErrorKind::BadValue, "no link has a mass; give masses"))
+    Err(massless())
 }
 
 /// Selects all functions. Forward dynamics are excluded if bodies without mass would have to move. Returns a note for

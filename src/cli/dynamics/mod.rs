@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use super::Outcome;
 use super::output::{Force, Output};
 use super::part::PartArguments;
-use crate::{ErrorKind, Result};
+use crate::{Error, ErrorKind, Result};
 use groebot_ik::codegen::dynamics::Function;
 use groebot_robot::dynamics::{Base, Equations};
 use groebot_robot::model::Robot;
@@ -122,6 +122,11 @@ impl Arguments {
             _ => error,
         })
     }
+}
+
+/// The error for a robot without mass.
+fn massless() -> Error {
+    Error::new(ErrorKind::BadValue, "no link has a mass; give masses")
 }
 
 /// Prints the requested result.

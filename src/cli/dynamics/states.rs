@@ -5,15 +5,15 @@ use std::path::Path;
 use nalgebra::{DMatrix, DVector, Vector3};
 use serde::Serialize;
 
-use super::Arguments;
 use super::reading::Reading;
+use super::{Arguments, massless};
 use crate::cli::json::FORMAT;
 use crate::cli::moving::described;
 use crate::cli::output::Kind;
 use crate::cli::{Outcome, console};
 use crate::{Error, Result};
 use groebot_robot::dynamics::{Base, Equations, State, Workspace};
-use groebot_robot::model::Robot;
+use groebot_robot::model::{Joint, Robot};
 use groebot_robot::motion::{StateRow, StateTable};
 
 /// The output for all states.
@@ -58,6 +58,12 @@ pub fn run(arguments: &Arguments, states: &Path) -> Outcome {
     }
 }
 
+/// Whether a link has a mass, or a joint friction or a rotor.
+fn has_dynamics(robot: &Robot) -> bool {
+    let moves = |joint: &Joint| [joint.damping, joint.friction, joint.armature].iter().any(|number| *number != 0.0);
+    robot.links().iter().any(|link| link.mass.is_some()) || robot.joints().iter().any(moves)
+}
+
 fn report(
     robot: &Robot,
     gravity: Vector3<f64>,
@@ -70,6 +76,9 @@ fn report(
     let robot = if reading.followers.is_empty() { robot } else { &without_followers(robot)? };
     notes.extend(reading.note());
     let mut equations = arguments.equations(robot, reading.base)?.with_gravity(gravity);
+    if !has_dynamics(robot) {
+        return Err(massless().in_file(&arguments.robot));
+    }
     if arguments.no_friction {
         equations = equations.without_friction();
     }

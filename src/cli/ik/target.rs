@@ -30,8 +30,8 @@ pub fn target(chain: &Chain, text: &str, degrees: bool) -> Result<Aim> {
 /// The target of these numbers, then the values of the given joints.
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] for a number of values that differs from that of the chain's task, and for a matrix that is
-/// not a rotation.
+/// [`ErrorKind::BadValue`] for a number of values that differs from that of the chain's task, for a matrix that is not a rotation, and for a quaternion without
+/// the value of the given joint.
 pub fn aim(chain: &Chain, values: &[f64], degrees: bool) -> Result<Aim> {
     let count = chain.given_inputs().len();
     let Some(own) = values.len().checked_sub(count) else {
@@ -39,10 +39,29 @@ pub fn aim(chain: &Chain, values: &[f64], degrees: bool) -> Result<Aim> {
         let text = format!("{} numbers are given; the values of {count} joints are last: {names}", values.len());
         return Err(Error::new(ErrorKind::BadValue, text));
     };
+    if count == 1 && has_quaternion(chain.task(), values) {
+        let text = format!(
+            "{} numbers are given: the last four may be a quaternion without the value of the given joint, or three angles with it; give a quaternion or a matrix, \
+             then the value of {}",
+            values.len(),
+            chain.parts().given.join(", ")
+        );
+        return Err(Error::new(ErrorKind::BadValue, text));
+    }
     let turns = chain.given_inputs().into_iter().map(|joint| chain.joints()[joint].kind == JointKind::Revolute);
     let inside = |(value, turns): (&f64, bool)| if degrees && turns { value.to_radians() } else { *value };
     let given = values[own..].iter().zip(turns).map(inside).collect();
     Ok((target_of(chain, &values[..own], degrees)?, given))
+}
+
+/// The largest deviation of a quaternion's length from one, that of `solve`'s targets.
+const QUATERNION: f64 = 1e-6;
+
+/// Whether `values` without those of given joints are a target with a quaternion.
+fn has_quaternion(task: Task, values: &[f64]) -> bool {
+    let is_target = matches!((task, values.len()), (Task::Pose, 7) | (Task::Rotation, 4));
+    let length = values.iter().rev().take(4).map(|entry| entry * entry).sum::<f64>().sqrt();
+    is_target && (length - 1.0).abs() < QUATERNION
 }
 
 /// The target of `values`.

@@ -14,7 +14,7 @@ use crate::derive::{Derivation, Ends, Source};
 use crate::witness;
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_algebra::limits::STAGE_BYTES;
-use groebot_robot::document::{read_bytes, read_text};
+use groebot_robot::document::{read_bytes, read_text, shown};
 use groebot_robot::files::write_folder_atomically;
 use groebot_robot::robots::{Kind, LISTED, Listed};
 
@@ -67,6 +67,25 @@ impl SolverCache {
         folder.map(SolverCache::new).ok_or_else(none)
     }
 
+    /// Checks that the folder has the derivation of `robot`, or that it can be stored there.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Io`] where the folder cannot be written.
+    pub fn check(&self, robot: &Listed) -> Result<()> {
+        if is_sound(&self.folder.join(folder_name(robot))) { Ok(()) } else { self.new_folder().map(drop) }
+    }
+
+    /// A new folder in the cache, for files that are not complete.
+    fn new_folder(&self) -> Result<TempDir> {
+        let new = fs::create_dir_all(&self.folder).and_then(|()| TempDir::with_prefix_in(".new-", &self.folder));
+        new.map_err(|error| {
+            let (folder, reason) = (shown(&self.folder.to_string_lossy()), error.kind());
+            let text =
+                format!("derived solvers cannot be stored in `{folder}`: {reason}; set {VARIABLE} to another folder");
+            Error::new(ErrorKind::Io, text)
+        })
+    }
+
     /// The folder with the derivation of `robot`. It is derived, proved and checked numerically if the cache does not have it, or has it damaged.
     ///
     /// # Errors
@@ -78,8 +97,7 @@ impl SolverCache {
         let folder = self.folder.join(folder_name(robot));
         if !is_sound(&folder) {
             let files = files(robot, watch)?;
-            fs::create_dir_all(&self.folder).map_err(|error| Error::io(&self.folder, &error))?;
-            place(&files, &folder, watch)?;
+            place(&files, &folder, &self.new_folder()?, watch)?;
         }
         Ok(folder)
     }
@@ -137,12 +155,10 @@ fn is_sound(folder: &Path) -> bool {
     text.lines().any(|line| line.ends_with(PROGRAM)) && text.lines().all(has_hash)
 }
 
-/// Writes `files` to a new folder, and renames it to `folder`. A damaged folder of this name is removed; a sound one, which another process has placed meanwhile,
+/// Writes `files` to the folder `new`, and renames it to `folder`. A damaged folder of this name is removed; a sound one, which another process has placed meanwhile,
 /// is left.
-fn place(files: &[(String, Vec<u8>)], folder: &Path, watch: &Watch) -> Result<()> {
-    let parent = folder.parent().unwrap_or(Path::new("."));
+fn place(files: &[(String, Vec<u8>)], folder: &Path, new: &TempDir, watch: &Watch) -> Result<()> {
     let io = |error: std::io::Error| Error::io(folder, &error);
-    let new = TempDir::with_prefix_in(".new-", parent).map_err(io)?;
     let content = new.path().join("derivation");
     write_folder_atomically(&content, files, watch)?;
     let mut last = Ok(());

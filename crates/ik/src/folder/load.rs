@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::names::{CERTIFICATE, PROGRAM};
+use crate::derive::problem::input::hidden_robot;
 use crate::derive::{Derivation, Source};
 use crate::solver::Program;
 use crate::{Error, ErrorKind, Result};
@@ -20,7 +21,9 @@ pub fn program(folder: &Path) -> Result<Program> {
         return Program::from_json(&text).map_err(|error| error.in_file(&file));
     }
     if !folder.join(CERTIFICATE).exists() {
-        let text = format!("this folder has no `{PROGRAM}` and no `{CERTIFICATE}`; `groebot derive` writes them");
+        let hidden = hidden_robot(folder);
+        let text =
+            format!("this folder has no `{PROGRAM}` and no `{CERTIFICATE}`; `groebot derive` writes them{hidden}");
         return Err(Error::new(ErrorKind::Io, text).in_file(folder));
     }
     Ok(reprove(folder, &Source::read(folder)?)?.program().clone())

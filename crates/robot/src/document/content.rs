@@ -82,7 +82,7 @@ fn mesh_format(bytes: &[u8]) -> Option<&'static str> {
         bytes.get(header - 4..header).and_then(|count| Some(u32::from_le_bytes(count.try_into().ok()?) as usize));
     let is_binary_stl = count
         .is_some_and(|count| count > 0 && count.checked_mul(triangle).map(|size| size + header) == Some(bytes.len()));
-    let is_text_stl = head.starts_with("solid") && head.contains("facet normal");
+    let is_text_stl = head.starts_with("solid") && (head.contains("facet normal") || head.contains("endsolid"));
     let lines = || head.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
     let has_vertex = || lines().any(|line| line.starts_with("v ") && line.split_whitespace().count() >= 4);
     match () {
@@ -108,7 +108,8 @@ pub fn explained(error: Error, text: &str) -> Error {
 
 fn foreign(name: &str, advice: &str) -> Error {
     let text = format!(
-        "this is {name}; {advice}: descriptions are URDF, MJCF or SDF (XML), or TOML, of a robot, a chain, a DH table or a system of equations"
+        "this is {name}; {advice}: descriptions are URDF, xacro, MJCF or SDF (XML); TOML of a robot, a chain, a DH table or a system of equations; DH tables in CSV; \
+         calibrations of Universal Robots (YAML)"
     );
     Error::new(ErrorKind::Unsupported, text)
 }

@@ -29,6 +29,10 @@ impl Robot {
     pub fn from_toml(text: &str) -> Result<Robot> {
         let document = Document::parse(text)?;
         let root = document.root();
+        if let Some(node) = ["dh", "tip", "chain"].into_iter().find_map(|key| root.optional(key)) {
+            let text = "this describes a chain, whose solver can be derived; it has no links, and a robot has `link` and `joint`";
+            return Err(node.error(ErrorKind::UnknownKey, text));
+        }
         root.deny_unknown(&KEYS)?;
         let reader = Reader { units: read_units(root)? };
         let tables = |key| root.optional(key).map_or(Ok(Vec::new()), |node| node.tables());

@@ -46,6 +46,37 @@ fn names_and_units_of_columns_vary() {
     assert_eq!(chains[0].base_from_tip(), chains[1].base_from_tip());
 }
 
+/// Excel writes a byte-order mark and the separators of empty cells, and in many countries semicolons and decimal commas.
+#[test]
+fn tables_of_spreadsheets_are_read() {
+    let plain = page();
+    let chain = |text: String| Chain::from_dh_toml(&as_toml(text).unwrap()).unwrap();
+    let expected = chain(plain.to_owned());
+    let european = plain.replace(", ", ";").replace('.', ",");
+    let padded = |separator: &str| {
+        let rows = plain.lines().map(|line| {
+            if line.starts_with('#') {
+                format!("\"{line}\"{}", separator.repeat(6))
+            } else {
+                line.replace(", ", separator)
+            }
+        });
+        rows.collect::<Vec<_>>().join("\r\n") + &format!("\r\n{}\r\n", separator.repeat(6))
+    };
+    for text in [
+        format!("\u{feff}{plain}"),
+        european.clone(),
+        padded(","),
+        padded(";"),
+        padded("\t"),
+        format!("\u{feff}{european}"),
+    ] {
+        let found = chain(text.clone());
+        assert_eq!((found.joints(), found.name()), (expected.joints(), expected.name()), "{text}");
+        assert_eq!(found.base_from_tip(), expected.base_from_tip(), "{text}");
+    }
+}
+
 #[test]
 fn faults_of_a_table_have_their_line() {
     let head = "# convention: standard\nname, theta, d, a, alpha\n";
@@ -56,6 +87,19 @@ fn faults_of_a_table_have_their_line() {
         (format!("{head}j,q1+90,0,1,0\n"), ErrorKind::Syntax, Some(3), "q1+90"),
         (format!("{head}j,q1-pi/2,0,1,0\n"), ErrorKind::BadValue, Some(3), "q1-pi/2"),
         (format!("{head}j,nan,0,1,0\n"), ErrorKind::Syntax, Some(3), "nan"),
+        (format!("{head}j,q1*2,0,1,0\n"), ErrorKind::Syntax, Some(3), "q1*2"),
+        (
+            "# convention: standard\nname;theta;d;a;alfa\n".to_owned(),
+            ErrorKind::UnknownKey,
+            Some(2),
+            "did you mean `alpha`",
+        ),
+        (
+            "# convention: standard\nname,theta,d,a,alpha [grad]\n".to_owned(),
+            ErrorKind::BadValue,
+            Some(2),
+            "m, mm, rad or deg",
+        ),
         (format!("{head}j,0,0,1,pi/0\n"), ErrorKind::BadValue, Some(3), "pi/0"),
         (
             "# convention: standard\nname,theta [deg],d,a,alpha [rad]\n".to_owned(),
@@ -107,6 +151,8 @@ fn a_calibration_is_the_robot_of_ur_description() {
 
 #[test]
 fn faults_of_a_calibration_have_their_line() {
+    let renamed = as_toml(block().replace("wrist_2:", "wrist2:")).unwrap_err();
+    assert_eq!((renamed.kind(), renamed.message()), (ErrorKind::MissingKey, "`wrist_2` has no `x`"));
     let missing = as_toml(block().replace("    z: 0.17415\n", "")).unwrap_err();
     assert_eq!((missing.kind(), missing.message()), (ErrorKind::MissingKey, "`wrist_1` has no `z`"));
     for (from, to) in [

@@ -258,7 +258,9 @@ fn includes_are_bounded() {
         let error = read(&main.replace("part.xml", path), "<x/>").unwrap_err();
         assert_eq!(error.kind(), ErrorKind::Unsupported, "{error}");
     }
-    assert_eq!(read(&main.replace("part.xml", "none.xml"), "<x/>").unwrap_err().kind(), ErrorKind::Io);
+    let missing = read(&main.replace("part.xml", "none.xml"), "<x/>").unwrap_err();
+    assert_eq!((missing.kind(), missing.place().line), (ErrorKind::Io, Some(1)));
+    assert!(missing.to_string().contains("main.xml") && missing.message().contains("none.xml"), "{missing}");
 }
 
 /// Damaged files, each with a few replaced words, are read or refused, and what is read is written.

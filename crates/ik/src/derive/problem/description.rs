@@ -39,9 +39,10 @@ pub(super) fn from_xml(read: &DescriptionText, file: &Path) -> Result<(Descripti
     let urdf = robot.to_urdf();
     let again = Robot::from_urdf(&urdf).map_err(|error| error.with_context("as URDF"))?;
     let mut parts = again.parts().clone();
-    // Messages are about the file itself. URDF has no gains of servos.
+    // Messages are about the file itself. URDF has no gains of servos. A part with a fault is incomplete in `again`: its fault remains.
     parts.notes.clone_from(&robot.parts().notes);
-    parts.faults.clear();
+    parts.faults.retain(|fault| robot.faults().iter().all(|own| own.part != fault.part));
+    parts.faults.extend_from_slice(robot.faults());
     for (link, own) in parts.links.iter_mut().zip(robot.links()) {
         (link.line, link.notes) = (own.line, own.notes.clone());
     }

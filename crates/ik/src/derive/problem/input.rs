@@ -48,6 +48,13 @@ pub fn named_robot(name: &str) -> Result<&'static Listed> {
         .map_err(|error| Error::new(error.kind(), format!("there is no such file, and {}", error.message())))
 }
 
+/// The end of a message about `folder`, if the folder has the name of a robot.
+pub(crate) fn hidden_robot(folder: &Path) -> String {
+    let is_word = folder.components().count() == 1;
+    let name = folder.to_str().filter(|name| is_word && robots::find(name).is_ok());
+    name.map_or(String::new(), |name| format!("; it hides the robot `{name}` by name"))
+}
+
 /// An input file and its content.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InputFile {
@@ -379,7 +386,11 @@ fn input_in(folder: &Path) -> Result<PathBuf> {
     match present.as_slice() {
         [file] => Ok(folder.join(file)),
         [] => {
-            let text = "this folder has no input; add a `0_chain.toml`, a `0_system.toml`, a `0_robot.urdf` or a `0_coupled.toml`";
+            let text = format!(
+                "this folder has no input; give a file, or add one of {}{}",
+                INPUT_NAMES.map(|name| format!("`{name}`")).join(", "),
+                hidden_robot(folder)
+            );
             Err(Error::new(ErrorKind::BadValue, text).in_file(folder))
         }
         [first, second, ..] => {

@@ -34,12 +34,39 @@ const TYPES: [(&str, &str); 6] = [
 ];
 const KEYS: [&str; 4] = ["convention", "name", "source", "task"];
 
-/// Whether `text` is a table of comma-separated values with the columns `a` and `alpha`.
+/// The columns of the parameters.
+const PARAMETERS: [&str; 4] = ["theta", "d", "a", "alpha"];
+/// The separators of cells. A table with the second or the third one may have decimal commas.
+const SEPARATORS: [char; 3] = [',', ';', '\t'];
+
+/// Whether `text` is a table with the columns `a` and `alpha`, or with three of the four parameters. Units and other columns are not checked.
 pub fn is_dh_csv(text: &str) -> bool {
-    let header = text.lines().map(str::trim).find(|line| !line.is_empty() && !line.starts_with('#'));
-    let Some(header) = header.filter(|line| line.contains(',') && !line.contains('=')) else { return false };
-    let columns: Vec<Option<Column>> = cells(header).map(|cell| Column::read(cell).ok()).collect();
-    ["a", "alpha"].iter().all(|name| columns.iter().flatten().any(|column| column.name == *name))
+    let header = text.lines().find(|line| !is_blank(line) && remark(line).is_none());
+    let Some(header) = header.filter(|line| line.contains(SEPARATORS) && !line.contains('=')) else { return false };
+    let names: Vec<&str> = cells(header, separator(header)).filter_map(|cell| known(&words(&cell)).ok()).collect();
+    let has = |name: &&&str| names.contains(*name);
+    PARAMETERS.iter().filter(has).count() > 2 || ["a", "alpha"].iter().filter(has).count() == 2
+}
+
+/// Whether a character is a separator, a blank or a quotation mark.
+fn is_filling(c: char) -> bool {
+    SEPARATORS.contains(&c) || c == '"' || c.is_whitespace()
+}
+
+/// Whether a row has no cell with a value.
+fn is_blank(line: &str) -> bool {
+    line.chars().all(is_filling)
+}
+
+/// The text of a line with a remark. A spreadsheet may quote it.
+fn remark(line: &str) -> Option<&str> {
+    line.trim_start_matches(is_filling).strip_prefix('#')
+}
+
+/// The separator of a table with this first row.
+fn separator(header: &str) -> char {
+    let count = |separator: &char| header.matches(*separator).count();
+    SEPARATORS.into_iter().rev().max_by_key(count).unwrap_or(',')
 }
 
 /// The table as TOML in the format of [`crate::kinematics::dh_toml`]. A row has the same line number in both.
@@ -55,12 +82,13 @@ pub fn to_toml(text: &str) -> Result<String> {
     for (number, line) in (1..).zip(text.lines()) {
         let line = line.trim();
         let at_line = |error: Error| error.at_line(number);
-        match (&table, line.strip_prefix('#')) {
+        match (&table, remark(line)) {
             (_, Some(remark)) => {
                 about.read(remark);
-                written += line;
+                written += "#";
+                written += remark;
             }
-            (_, None) if line.is_empty() => {}
+            (_, None) if is_blank(line) => {}
             (None, None) => {
                 table = Some(Header::read(line).map_err(at_line)?);
                 written += "joint = [";
@@ -84,7 +112,8 @@ impl About {
     fn read(&mut self, remark: &str) {
         let Some((key, value)) = remark.split_once([':', '=']) else { return };
         if let Some(place) = KEYS.iter().position(|own| own.eq_ignore_ascii_case(key.trim())) {
-            self.values[place] = Some(value.trim().to_owned());
+            // Spreadsheets write the separators of empty cells.
+            self.values[place] = Some(value.trim_matches(is_filling).to_owned());
         }
     }
 
@@ -116,16 +145,12 @@ struct Column {
 impl Column {
     /// Reads a name such as `theta`, `theta_deg`, `theta [deg]` or `d (mm)`.
     fn read(cell: &str) -> Result<Self> {
-        let plain = cell.to_lowercase().replace(['[', ']', '(', ')', '_', ' '], " ");
-        let mut words = plain.split_whitespace();
-        let word = words.next().unwrap_or_default();
-        let known = COLUMNS.iter().find(|(name, others)| *name == word || others.contains(&word));
+        let words = words(cell);
         let names: Vec<&str> = COLUMNS.iter().map(|(name, _)| *name).collect();
-        let unknown = || {
+        let name = known(&words).map_err(|word| {
             Error::new(ErrorKind::UnknownKey, format!("unknown column `{}`{}", shown(cell), one_among(word, &names)))
-        };
-        let (name, _) = known.ok_or_else(unknown)?;
-        let unit = words.next().map(|unit| ["m", "mm", "rad", "deg"].into_iter().find(|own| *own == unit));
+        })?;
+        let unit = words.get(1).map(|unit| ["m", "mm", "rad", "deg"].into_iter().find(|own| own == unit));
         let wrong = || {
             let text = format!("column `{}` has an unknown unit; give m, mm, rad or deg", shown(cell));
             Error::new(ErrorKind::BadValue, text)
@@ -134,8 +159,22 @@ impl Column {
     }
 }
 
+/// The words of a column's name, in lower case: the name, and the unit.
+fn words(cell: &str) -> Vec<String> {
+    let plain = cell.to_lowercase().replace(['[', ']', '(', ')', '_', ' '], " ");
+    plain.split_whitespace().map(str::to_owned).collect()
+}
+
+/// The column with the first of these words; otherwise this word.
+fn known(words: &[String]) -> std::result::Result<&'static str, &str> {
+    let word = words.first().map_or("", String::as_str);
+    let found = COLUMNS.iter().find(|(name, others)| *name == word || others.contains(&word));
+    found.map(|(name, _)| *name).ok_or(word)
+}
+
 /// The columns of a table, and its units.
 struct Header {
+    separator: char,
     columns: Vec<Column>,
     length: &'static str,
     angle: &'static str,
@@ -143,7 +182,8 @@ struct Header {
 
 impl Header {
     fn read(line: &str) -> Result<Self> {
-        let columns = cells(line).map(Column::read).collect::<Result<Vec<_>>>()?;
+        let separator = separator(line);
+        let columns = cells(line, separator).map(|cell| Column::read(&cell)).collect::<Result<Vec<_>>>()?;
         for (place, column) in columns.iter().enumerate() {
             if columns[..place].iter().any(|other| other.name == column.name) {
                 return Err(Error::new(ErrorKind::DuplicateName, format!("the column `{}` occurs twice", column.name)));
@@ -151,19 +191,19 @@ impl Header {
         }
         let length = unit(&columns, &LENGTHS, ["m", "mm"])?;
         let angle = unit(&columns, &ANGLES, ["rad", "deg"])?;
-        Ok(Header { columns, length, angle })
+        Ok(Header { separator, columns, length, angle })
     }
 
     /// A row as an inline table of TOML.
     fn row(&self, line: &str) -> Result<String> {
-        let values: Vec<&str> = cells(line).collect();
+        let values: Vec<String> = cells(line, self.separator).collect();
         if values.len() != self.columns.len() {
             let text = format!("this row has {} cells; the table has {} columns", values.len(), self.columns.len());
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         let value = |name: &str| {
             let place = self.columns.iter().position(|column| column.name == name)?;
-            Some(values[place]).filter(|value| !value.is_empty())
+            Some(values[place].as_str()).filter(|value| !value.is_empty())
         };
         let kind = value("type").unwrap_or("revolute");
         let known = TYPES.iter().find(|(word, _)| word.eq_ignore_ascii_case(kind));
@@ -234,15 +274,21 @@ fn unit(columns: &[Column], names: &[&str], allowed: [&'static str; 2]) -> Resul
     Ok(allowed.into_iter().find(|unit| own.contains(unit)).unwrap_or(allowed[0]))
 }
 
-/// The cells of a line, without spaces and quotation marks around them.
-fn cells(line: &str) -> impl Iterator<Item = &str> {
-    line.split(',').map(|cell| cell.trim().trim_matches('"').trim())
+/// The cells of a line, without spaces and quotation marks around them, and with decimal points.
+fn cells(line: &str, separator: char) -> impl Iterator<Item = String> {
+    let plain = move |cell: &str| {
+        let cell = cell.trim().trim_matches('"').trim();
+        if separator == ',' { cell.to_owned() } else { cell.replace(',', ".") }
+    };
+    line.split(separator).map(plain)
 }
 
-/// Whether a cell is the name of a variable, such as `q1`, `theta_1` or `θ1*`. A sum such as `q1+90` is not: its number must not be lost.
+/// Whether a cell is the name of a variable, such as `q1`, `theta_1` or `θ1*`. A sum such as `q1+90` and a product such as `q1*2` are not: their numbers must not
+/// be lost.
 fn is_symbol(cell: &str) -> bool {
-    let is_part = |c: char| c.is_alphanumeric() || matches!(c, '_' | '*' | '[' | ']');
-    cell.starts_with(char::is_alphabetic) && cell.chars().all(is_part) && cell != "pi" && cell.parse::<f64>().is_err()
+    let name = cell.strip_suffix('*').unwrap_or(cell);
+    let is_part = |c: char| c.is_alphanumeric() || matches!(c, '_' | '[' | ']');
+    name.starts_with(char::is_alphabetic) && name.chars().all(is_part) && name != "pi" && name.parse::<f64>().is_err()
 }
 
 /// A string of TOML.

@@ -11,11 +11,13 @@ use crate::Result;
 /// # Errors
 /// As [`dh_csv::to_toml`] and [`ur_calibration::to_toml`], with the line.
 pub fn as_toml(text: String) -> Result<String> {
-    if dh_csv::is_dh_csv(&text) {
-        return dh_csv::to_toml(&text);
+    // Spreadsheets write a byte-order mark.
+    let plain = text.trim_start_matches('\u{feff}');
+    if dh_csv::is_dh_csv(plain) {
+        return dh_csv::to_toml(plain);
     }
-    if ur_calibration::is_ur_calibration(&text) {
-        return ur_calibration::to_toml(&text);
+    if ur_calibration::is_ur_calibration(plain) {
+        return ur_calibration::to_toml(plain);
     }
     Ok(text)
 }

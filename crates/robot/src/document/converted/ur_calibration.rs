@@ -27,10 +27,11 @@ const NUMBERS: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];
 /// Nesting of the file: `kinematics`, a joint, a number.
 const LEVELS: usize = 3;
 
-/// Whether `text` is such a file.
+/// Whether `text` has the key `kinematics` and at least half of the joints of such a file.
 pub fn is_ur_calibration(text: &str) -> bool {
     let has = |key: &str| text.lines().any(|line| line.trim() == key);
-    has("kinematics:") && JOINTS.iter().all(|[.., key]| has(&format!("{key}:")))
+    let joints = JOINTS.iter().filter(|[.., key]| has(&format!("{key}:"))).count();
+    has("kinematics:") && joints * 2 >= JOINTS.len()
 }
 
 /// The robot as TOML in the format of [`crate::model::toml`], with links `base_link` to `tool0` as in the package ur_description. The joints have no limits,

@@ -38,10 +38,22 @@ impl Robot {
     /// [`ErrorKind::BadValue`](crate::ErrorKind::BadValue) for a link or a joint with a number outside the range of
     /// doubles.
     pub fn to_mjcf(&self, meshes: &Meshes, notes: &mut Vec<String>) -> Result<String> {
+        self.mjcf(meshes, notes, false)
+    }
+
+    /// Same as [`Robot::to_mjcf`], but with the root fixed in the world. A root with the name `world` is MuJoCo's world itself; its mass is omitted.
+    ///
+    /// # Errors
+    /// Those of [`Robot::to_mjcf`].
+    pub fn to_mjcf_fixed(&self, meshes: &Meshes, notes: &mut Vec<String>) -> Result<String> {
+        self.mjcf(meshes, notes, true)
+    }
+
+    fn mjcf(&self, meshes: &Meshes, notes: &mut Vec<String>, is_fixed: bool) -> Result<String> {
         self.check_doubles()?;
         let root = unlike("root", |name| self.joints().iter().any(|joint| joint.name == name));
         let world = unlike("world_", |name| self.links().iter().any(|link| link.name == name));
-        let mut writer = Writer { robot: self, meshes, assets: Vec::new(), notes, root, world };
+        let mut writer = Writer { robot: self, meshes, assets: Vec::new(), notes, root, world, is_fixed };
         let bodies = writer.bodies();
         let assets: String = writer.assets.iter().map(|asset| format!("    {asset}\n")).collect();
         Ok(format!(
@@ -111,6 +123,8 @@ struct Writer<'r> {
     /// The names of the root's joint, and of a link whose name MuJoCo reserves for the world.
     root: String,
     world: String,
+    /// Whether the root is fixed in the world.
+    is_fixed: bool,
 }
 
 impl Writer<'_> {
@@ -126,9 +140,14 @@ impl Writer<'_> {
                 text += &format!("{}</body>\n", stem(depth));
                 continue;
             };
-            text += &self.opened(&robot.links()[link], joint, &stem(depth));
-            depth += 1;
-            open.push(None);
+            let link_here = &robot.links()[link];
+            if joint.is_none() && self.is_fixed && link_here.name == "world" {
+                text += &self.geoms(link_here, &stem(depth - 1));
+            } else {
+                text += &self.opened(link_here, joint, &stem(depth));
+                depth += 1;
+                open.push(None);
+            }
             let below = children[link].iter().rev();
             open.extend(below.map(|&joint| Some((robot.ends(joint).1, Some(&robot.joints()[joint])))));
         }
@@ -138,11 +157,19 @@ impl Writer<'_> {
     /// Writes the body of a link with the parent joint `joint`, without its children and its end.
     fn opened(&mut self, link: &Link, joint: Option<&Joint>, stem: &str) -> String {
         let at = joint.map(|joint| placed(&joint.origin.pose())).unwrap_or_default();
-        let free = || format!("{stem}  <freejoint name=\"{}\"/>\n", self.root);
-        let moves = joint.map_or_else(free, |joint| moving(joint, stem));
+        let root = || {
+            if self.is_fixed { String::new() } else { format!("{stem}  <freejoint name=\"{}\"/>\n", self.root) }
+        };
+        let moves = joint.map_or_else(root, |joint| moving(joint, stem));
         let name = if link.name == "world" { &self.world } else { &link.name };
         let weighs = inertial(link, stem, self.notes);
-        let mut text = format!("{stem}<body name=\"{}\"{at}>\n{moves}{weighs}", escaped(name));
+        let body = format!("{stem}<body name=\"{}\"{at}>\n{moves}{weighs}", escaped(name));
+        body + &self.geoms(link, stem)
+    }
+
+    /// The shapes of a link as geoms.
+    fn geoms(&mut self, link: &Link, stem: &str) -> String {
+        let mut text = String::new();
         let shapes = link
             .collisions
             .iter()

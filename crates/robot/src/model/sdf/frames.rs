@@ -1,6 +1,6 @@
 //! The frames of an SDF: links, joints, models and named frames, each relative to another one. Main type: [`Frames`].
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use crate::document::shown;
 use crate::model::some_among;
@@ -41,7 +41,7 @@ struct Frame {
 /// All frames by their full names, such as `arm::hand::tip`.
 pub struct Frames {
     frames: Vec<Frame>,
-    places: HashMap<String, usize>,
+    places: BTreeMap<String, usize>,
 }
 
 impl Frames {
@@ -50,7 +50,7 @@ impl Frames {
         let error = Error::new(ErrorKind::BadValue, "the world");
         let world =
             Frame { reference: None, pose: Placement::identity(), placed_by: None, fixed: Fixed::Itself, error };
-        Frames { frames: vec![world], places: HashMap::from([(WORLD.to_owned(), 0)]) }
+        Frames { frames: vec![world], places: BTreeMap::from([(WORLD.to_owned(), 0)]) }
     }
 
     /// Adds the frame `name`. `error` has its place in the file.

@@ -31,7 +31,10 @@ impl Robot {
         let root = Element::parse(text)?;
         let mut notes = xacro::unused(&root)?;
         if root.name != "robot" {
-            return Err(root.error(ErrorKind::BadValue, "is the root element; a URDF has the root element <robot>"));
+            return Err(root.error(
+                ErrorKind::BadValue,
+                "is the root element; that of a URDF is <robot>, of an MJCF <mujoco>, of an SDF <sdf>",
+            ));
         }
         let is_recent = version(&root).is_some_and(|version| version >= (1, 2));
         let elements = |name| root.children.iter().filter(move |child| child.name == name);
