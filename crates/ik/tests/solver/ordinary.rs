@@ -30,14 +30,14 @@ fn targets(program: &Program, solver: &Solver) -> Vec<f64> {
 /// What a batch reports: by target its solutions, or none if it is refused.
 fn batch(solver: &Solver, targets: &[f64]) -> Vec<Option<Vec<Row>>> {
     let (mut all, mut own) = (Vec::new(), Vec::new());
-    let take = |solved: Solved<'_>| match solved {
+    let mut take = |solved: Solved<'_>| match solved {
         Solved::Answer { q, residual, branch, .. } => own.push((bits(q), residual.to_bits(), branch)),
         Solved::Target { refused } => {
             let own = std::mem::take(&mut own);
             all.push(refused.is_none().then_some(own));
         }
     };
-    solver.solve_each(targets, take).unwrap();
+    solver.solve_each(targets, &mut take).unwrap();
     all
 }
 
