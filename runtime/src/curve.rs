@@ -185,9 +185,11 @@ impl<M: Mechanism> Answers<'_, M> {
     /// Searches for two solutions, or a double one, where the residual has a minimum without a change of sign: at the vertex of a parabola.
     fn dip(&mut self, found: &Found, [a, b, c]: [&Place<M>; 3]) {
         let unit = if a.most > c.most { a } else { c };
-        let (middle, ends) = (b.along(unit), f64::min(a.along(unit), c.along(unit)));
         let is_zero = b.most <= SELF_MOTIONS.member;
-        if !(f64::min(a.most, c.most) > SELF_MOTIONS.member && ends > middle && (is_zero || middle > 0.0)) {
+        let are_alike = f64::min(a.along(unit), c.along(unit)) > 0.0 && (is_zero || b.along(unit) > 0.0);
+        // By the sizes of residuals, as for the places before and behind: one of two places with equal residuals is the least.
+        let is_least = b.along(b) < a.along(a) && b.along(b) <= c.along(c);
+        if !(f64::min(a.most, c.most) > SELF_MOTIONS.member && are_alike && is_least) {
             return;
         }
         let (mut least, mut sides, mut stalls) = (b.clone(), [a.clone(), c.clone()], 0);

@@ -5,6 +5,7 @@ mod closest;
 mod compose;
 mod damaged;
 mod derivatives;
+mod described;
 mod follow;
 mod formats;
 mod ordinary;
