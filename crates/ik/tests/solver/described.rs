@@ -10,7 +10,7 @@ const TANGENT: [[f64; 6]; 2] = [[-70.0, 174.0, 34.0, 155.0, 0.0, -73.0], [-94.0,
 
 #[test]
 fn double_solutions_on_a_curve_are_found() {
-    let robot = Robot::read("../../tests/corpus/urdf/ur5.urdf".as_ref()).unwrap();
+    let robot = Robot::read("../../tests/corpus/urdf/ur5.urdf").unwrap();
     let chain = robot.chain(None, None).unwrap();
     let derivation = groebot_ik::derive(&chain).unwrap();
     let solver = derivation.solver();
