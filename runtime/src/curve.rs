@@ -21,6 +21,8 @@ const NARROWED: usize = 24;
 const CROSSING: f64 = 5e-2;
 /// Maximal least pivot of the joints that follow at a regular solution next to a crossing.
 const AT_CROSSING: f64 = 2e-2;
+/// Crossings that are nearer to each other are one: the places next to it on both curves are half a step away.
+const ONE_CROSSING: f64 = 2.0 * PACE[2];
 /// Maximal number of parabolas that search for the least residual on a curve.
 const PARABOLAS: usize = 12;
 /// Where the residual at a parabola's vertex is more than this share of the one before, the curve may have no zero.
@@ -149,7 +151,7 @@ impl<M: Mechanism> Answers<'_, M> {
     /// Adds starts on a curve that crosses another one next to the second of three places.
     fn branch(&mut self, found: &Found, [before, at, next]: [&Place<M>; 3], starts: &mut Starts<M>) {
         let is_least = at.pivot < CROSSING && at.pivot <= before.pivot && at.pivot <= next.pivot;
-        if is_least && starts.is_new_crossing(&self.problem.facts(), &at.q) {
+        if is_least && starts.is_new_crossing(&self.problem.facts(), &at.q, ONE_CROSSING) {
             for place in self.problem.aside(before, at).into_iter().flatten() {
                 starts.insert(*found, place.q);
             }

@@ -1,6 +1,5 @@
 //! Start points of continuation along curves: [`Starts`].
 
-use crate::curve_steps::PACE;
 use crate::joints::{beyond, differences};
 use crate::mechanism::{Facts, Found, Joints, Mechanism};
 use crate::tolerances::MERGING;
@@ -9,8 +8,6 @@ use crate::tolerances::MERGING;
 const ROOM: usize = 32;
 /// Maximal number of crossings at which other curves are searched for.
 const CROSSINGS: usize = 16;
-/// Crossings that are nearer to each other are one: the places next to it on both curves are half a step away.
-const ONE_CROSSING: f64 = 2.0 * PACE[2];
 
 /// Starts of walks: the candidates, and joint values on the curves next to them.
 pub(crate) struct Starts<M: Mechanism> {
@@ -47,9 +44,9 @@ impl<M: Mechanism> Starts<M> {
         }
     }
 
-    /// Stores a crossing of curves. Returns whether it is new and there is room.
-    pub fn is_new_crossing(&mut self, facts: &Facts<'_>, q: &Joints<M>) -> bool {
-        let is_near = |other: &Joints<M>| facts.farthest(other.as_ref(), q.as_ref()) <= ONE_CROSSING;
+    /// Stores a crossing of curves. Returns whether it is new, farther than `within` from the others, and there is room.
+    pub fn is_new_crossing(&mut self, facts: &Facts<'_>, q: &Joints<M>, within: f64) -> bool {
+        let is_near = |other: &Joints<M>| facts.farthest(other.as_ref(), q.as_ref()) <= within;
         if self.crossings.iter().flatten().any(is_near) {
             return false;
         }
