@@ -214,7 +214,9 @@ fn names_become_legal_and_stay_apart() {
         assert!(wrl.contains(&format!(".value_changed TO {name}.set_translation")));
     }
     assert!(x3d.contains("<TimeSensor DEF='Clock_2'") && wrl.contains("ROUTE Clock_2.fraction_changed TO"));
-    assert!(x3d.contains("title='it\\&apos;s &lt;a> \\\"scene\\\" &amp; more'"), "{x3d}");
+    // XML escapes the apostrophe that delimits an attribute, VRML the quotation mark that delimits a string.
+    assert!(x3d.contains("title='it&apos;s &lt;a> \"scene\" &amp; more'"), "{x3d}");
+    assert!(wrl.contains(r#"title "it's <a> \"scene\" & more""#), "{wrl}");
     // glTF uses them without change.
     let glb = Glb::of(&scene);
     assert!(glb.list("nodes").iter().zip(names).all(|(node, name)| node["name"] == name));
