@@ -124,7 +124,7 @@ fn other_files_are_named() {
     for (bytes, words) in [
         (
             &b"PK\x03\x04\x14\0\0\0"[..],
-            "this is a ZIP archive; give the URDF in it: descriptions are URDF, MJCF or SDF (XML), or TOML",
+            "this is a ZIP archive; give the URDF in it: descriptions are URDF, xacro, MJCF or SDF (XML); TOML",
         ),
         (b"\x1f\x8b\x08\0\0", "this is a gzip archive"),
         (b"PXR-USDC\0\0", "this is a USD scene"),
