@@ -189,7 +189,7 @@ impl<M: Mechanism> Answers<'_, M> {
         let unit = if a.most > c.most { a } else { c };
         let is_zero = b.most <= SELF_MOTIONS.member;
         let are_alike = f64::min(a.along(unit), c.along(unit)) > 0.0 && (is_zero || b.along(unit) > 0.0);
-        // By the sizes of residuals, as for the places before and behind: one of two places with equal residuals is the least.
+        // By the sizes of residuals, as for the triples before and after this one: of two places with equal residuals exactly one is the least.
         let is_least = b.along(b) < a.along(a) && b.along(b) <= c.along(c);
         if !(f64::min(a.most, c.most) > SELF_MOTIONS.member && are_alike && is_least) {
             return;

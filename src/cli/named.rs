@@ -59,8 +59,8 @@ impl CacheArguments {
 /// The user's cache. If it does not have the derivation of `robot` and cannot store it: `None`, with a note.
 fn usable_cache(robot: &Listed) -> Option<SolverCache> {
     let cache = SolverCache::of_user().and_then(|cache| cache.check(robot).map(|()| cache));
-    let told = |error: &Error| console::print_notes(&[format!("`{}` is derived at each call: {error}", robot.name())]);
-    cache.inspect_err(told).ok()
+    let note = |error: &Error| console::print_notes(&[format!("`{}` is derived at each call: {error}", robot.name())]);
+    cache.inspect_err(note).ok()
 }
 
 /// Whether `path` is the name of a robot with a solver.

@@ -269,7 +269,7 @@ fn numbers_beyond_doubles_are_not_exported() {
     }
 }
 
-/// An arm stands; the world of an MJCF is its world again.
+/// An arm is fixed; the world of an MJCF is its world again.
 #[test]
 fn the_root_of_an_arm_is_fixed_in_mjcf() {
     let folder = tempdir().unwrap();

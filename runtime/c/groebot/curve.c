@@ -81,7 +81,7 @@ static void gb_keep_dip(gb_answers *all, const gb_found_1 *found, const gb_spot 
     const bool is_zero = b->most <= GB_SELF_MOTIONS_MEMBER;
     const gb_real ends = gb_smaller(gb_miss_along(m, a, &unit), gb_miss_along(m, c, &unit));
     const bool are_alike = ends > R(0.0) && (is_zero || gb_miss_along(m, b, &unit) > R(0.0));
-    /* By the sizes of residuals, as for the places before and behind: one of two places with equal residuals is the least. */
+    /* By the sizes of residuals, as for the triples before and after this one: of two places with equal residuals exactly one is the least. */
     const gb_real size = gb_miss_along(m, b, b);
     const bool is_least = size < gb_miss_along(m, a, a) && size <= gb_miss_along(m, c, c);
     if (!(gb_smaller(a->most, c->most) > GB_SELF_MOTIONS_MEMBER && are_alike && is_least)) {

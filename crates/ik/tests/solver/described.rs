@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use groebot_robot::model::Robot;
 
 /// Joint values in degrees with a straight wrist. Along the curve on which the equations of the described robot hold almost, the residual is least there, and does not
-/// change its sign. Two consecutive places of the walk have nearly equal residuals, one before and one behind.
+/// change its sign. Two consecutive places of the walk have nearly equal residuals, one before and one after it.
 const TANGENT: [[f64; 6]; 2] = [[-70.0, 174.0, 34.0, 155.0, 0.0, -73.0], [-94.0, -94.0, 134.0, -39.0, 0.0, -139.0]];
 
 #[test]

@@ -50,8 +50,7 @@ pub fn named_robot(name: &str) -> Result<&'static Listed> {
 
 /// The end of a message about `folder`, if the folder has the name of a robot.
 pub(crate) fn hidden_robot(folder: &Path) -> String {
-    let is_word = folder.components().count() == 1;
-    let name = folder.to_str().filter(|name| is_word && robots::find(name).is_ok());
+    let name = folder.to_str().filter(|name| folder.components().count() == 1 && robots::find(name).is_ok());
     name.map_or(String::new(), |name| format!("; it hides the robot `{name}` by name"))
 }
 
